@@ -1,0 +1,188 @@
+//! The one error of the program: what is wrong, where, and what would have been right.
+
+use std::path::PathBuf;
+
+/// Result of everything that can fail on input or environment.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Everything that ends a run. The variant decides the exit code, the values make the message.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A wrong value, key or name in a text file the user wrote (scene, path, study).
+    #[error("{at}: {what}; {cure}")]
+    Text {
+        /// Where in which file.
+        at: Box<At>,
+        /// What is wrong there.
+        what: String,
+        /// What would have been right.
+        cure: String,
+    },
+    /// A geometry or mesh file that cannot be used.
+    #[error("{}: {what}; {cure}", file.display())]
+    Mesh {
+        /// The `.geo` or `.msh` file.
+        file: PathBuf,
+        /// What is wrong with it.
+        what: String,
+        /// What would have been right.
+        cure: String,
+    },
+    /// gmsh read the geometry and refused it.
+    #[error("{}: gmsh {outcome}\n{}", file.display(), indent(tail))]
+    Gmsh {
+        /// The `.geo` file.
+        file: PathBuf,
+        /// How gmsh ended, such as "ended with exit code 1".
+        outcome: String,
+        /// The last lines gmsh printed.
+        tail: Vec<String>,
+    },
+    /// Two sides that cannot be joined.
+    #[error("interface {name}: {what}; {cure}")]
+    Interface {
+        /// Name of the interface in the scene.
+        name: String,
+        /// What is wrong.
+        what: String,
+        /// What would have been right.
+        cure: String,
+    },
+    /// A body that the supports and joints do not hold.
+    #[error("{body} can move freely: {mode}; hold it with \"fix\" or \"displace\", or join it by an interface with stiffness in that direction")]
+    FreeBody {
+        /// Name of the subdomain.
+        body: String,
+        /// The free rigid motion, such as "translation in x".
+        mode: String,
+    },
+    /// Equilibrium was not found; what converged before is on disk.
+    #[error("step \"{step}\", increment {increment}: no equilibrium, {reason}; kept {kept} increments")]
+    NoEquilibrium {
+        /// Name of the step.
+        step: String,
+        /// Number of the increment within its step, from 1.
+        increment: usize,
+        /// Why the solution was given up.
+        reason: String,
+        /// Converged increments on disk.
+        kept: usize,
+    },
+    /// A program that midplane needs is missing, was killed or ran out of time.
+    #[error("{program}: {what}; {cure}")]
+    Program {
+        /// Name of the program.
+        program: String,
+        /// What happened.
+        what: String,
+        /// What to do about it.
+        cure: String,
+    },
+    /// The file system refused.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried, such as "write".
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+}
+
+/// A place in a text file.
+#[derive(Debug, Clone, Default)]
+pub struct At {
+    /// The file.
+    pub file: PathBuf,
+    /// Line from 1, 0 if the place is the whole file.
+    pub line: usize,
+    /// Path of the key, such as `interfaces.joint.side_b`; empty for the whole file.
+    pub key: String,
+    /// The text of the file, for the excerpt below the message.
+    pub text: String,
+    /// Byte range in `text`.
+    pub span: std::ops::Range<usize>,
+}
+
+impl std::fmt::Display for At {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if self.line > 0 {
+            write!(f, ":{}", self.line)?;
+        }
+        if !self.key.is_empty() {
+            write!(f, " {}", self.key)?;
+        }
+        Ok(())
+    }
+}
+
+impl Error {
+    /// Exit code of the program: 2 bad input, 3 no equilibrium, 4 environment.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::Text { .. }
+            | Error::Mesh { .. }
+            | Error::Gmsh { .. }
+            | Error::Interface { .. }
+            | Error::FreeBody { .. } => 2,
+            Error::NoEquilibrium { .. } => 3,
+            Error::Program { .. } => 4,
+            // a file the user named and that is not there is bad input; a full disk is the environment
+            Error::Io { action, source, .. } if *action == "read" => match source.kind() {
+                std::io::ErrorKind::NotFound
+                | std::io::ErrorKind::IsADirectory
+                | std::io::ErrorKind::NotADirectory
+                | std::io::ErrorKind::InvalidData => 2,
+                _ => 4,
+            },
+            Error::Io { .. } => 4,
+        }
+    }
+
+    /// Shorthand for a mesh error.
+    pub fn mesh(file: impl Into<PathBuf>, what: impl Into<String>, cure: impl Into<String>) -> Error {
+        Error::Mesh { file: file.into(), what: what.into(), cure: cure.into() }
+    }
+
+    /// Shorthand for a file system error.
+    pub fn io(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Error {
+        let path = path.into();
+        move |source| Error::Io { action, path, source }
+    }
+}
+
+/// "it has a, b, c. Did you mean \"b\"?": the cure for a name that is not among `available`.
+pub fn name_cure<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = available.into_iter().collect();
+    if names.is_empty() {
+        return "there are none".into();
+    }
+    let close = names
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(wanted, name), name))
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, name)| *distance <= 1 + name.chars().count() / 3);
+    let mut cure = format!("there is {}", names.join(", "));
+    if let Some((_, name)) = close {
+        cure.push_str(&format!(". Did you mean \"{name}\"?"));
+    }
+    cure
+}
+
+fn indent(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_gets_a_suggestion_and_a_foreign_one_does_not() {
+        assert_eq!(name_cure("botom", ["bottom", "top"]), "there is bottom, top. Did you mean \"bottom\"?");
+        assert_eq!(name_cure("zzz", ["bottom", "top"]), "there is bottom, top");
+        assert_eq!(name_cure("zzz", []), "there are none");
+    }
+}

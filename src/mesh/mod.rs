@@ -1,0 +1,107 @@
+//! The mesh of one subdomain: points, cells, and groups by physical name.
+//!
+//! Everything past this room may rely on: every index is in range, every point belongs to a cell, every cell has a
+//! positive Jacobian at its corners and counts its nodes counter-clockwise, every edge of a curve group knows the cell
+//! it bounds and runs with that cell on its left.
+
+use std::path::PathBuf;
+
+use indexmap::IndexMap;
+
+use crate::shape::Shape;
+
+/// A plane mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    /// The `.msh` file it came from, for messages.
+    pub file: PathBuf,
+    /// Coordinates x, y [length].
+    pub points: Vec<[f64; 2]>,
+    /// The cells that fill the body.
+    pub cells: Cells,
+    /// Physical groups by name, in the order of the file.
+    pub groups: IndexMap<String, Group>,
+}
+
+/// Cells in compressed rows: cell c has the nodes `nodes[offsets[c]..offsets[c + 1]]`.
+#[derive(Debug, Clone, Default)]
+pub struct Cells {
+    /// Shape of every cell.
+    pub shapes: Vec<Shape>,
+    /// Start of every cell in `nodes`, one more entry than cells.
+    pub offsets: Vec<usize>,
+    /// Point numbers, corners first.
+    pub nodes: Vec<usize>,
+}
+
+/// The members of a physical group, by dimension.
+#[derive(Debug, Clone)]
+pub enum Group {
+    /// Physical points: point numbers, ascending.
+    Points(Vec<usize>),
+    /// Physical curves: edges.
+    Edges(Vec<Edge>),
+    /// Physical surfaces: cell numbers, ascending.
+    Cells(Vec<usize>),
+}
+
+/// An edge of a physical curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// Start, end and, on quadratic cells, mid-node; otherwise the third repeats the end.
+    pub nodes: [usize; 3],
+    /// The cell on its left.
+    pub cell: usize,
+    /// True if there is no cell on its right, so that the edge lies on the boundary of the body.
+    pub boundary: bool,
+}
+
+impl Cells {
+    /// Number of cells.
+    pub fn len(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// True without cells.
+    pub fn is_empty(&self) -> bool {
+        self.shapes.is_empty()
+    }
+
+    /// Nodes of cell `c`.
+    pub fn nodes(&self, c: usize) -> &[usize] {
+        &self.nodes[self.offsets[c]..self.offsets[c + 1]]
+    }
+
+    /// Adds a cell.
+    pub fn push(&mut self, shape: Shape, nodes: &[usize]) {
+        if self.offsets.is_empty() {
+            self.offsets.push(0);
+        }
+        self.shapes.push(shape);
+        self.nodes.extend_from_slice(nodes);
+        self.offsets.push(self.nodes.len());
+    }
+}
+
+impl Group {
+    /// The points of the group, ascending, each once.
+    pub fn points(&self, mesh: &Mesh) -> Vec<usize> {
+        let mut points = match self {
+            Group::Points(points) => points.clone(),
+            Group::Edges(edges) => edges.iter().flat_map(|edge| edge.nodes).collect(),
+            Group::Cells(cells) => cells.iter().flat_map(|&c| mesh.cells.nodes(c).iter().copied()).collect(),
+        };
+        points.sort_unstable();
+        points.dedup();
+        points
+    }
+
+    /// "point", "curve" or "surface".
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Group::Points(_) => "point",
+            Group::Edges(_) => "curve",
+            Group::Cells(_) => "surface",
+        }
+    }
+}
