@@ -49,7 +49,9 @@ pub enum Error {
         cure: String,
     },
     /// A body that the supports and joints do not hold.
-    #[error("{body} can move freely: {mode}; hold it with \"fix\" or \"displace\", or join it by an interface with stiffness in that direction")]
+    #[error(
+        "{body} can move freely: {mode}; hold it with \"fix\" or \"displace\", or join it by an interface with stiffness in that direction"
+    )]
     FreeBody {
         /// Name of the subdomain.
         body: String,

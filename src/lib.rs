@@ -20,4 +20,5 @@
 pub mod error;
 pub mod law;
 pub mod mesh;
+pub mod scene;
 pub mod shape;

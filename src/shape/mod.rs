@@ -186,7 +186,10 @@ mod tests {
             let sum: f64 = values.n.iter().sum();
             let x: f64 = shape.node_points().iter().zip(values.n).map(|(p, n)| p[0] * n).sum();
             let dy: f64 = shape.node_points().iter().zip(values.dn).map(|(p, d)| p[1] * d[1]).sum();
-            assert!((sum - 1.0).abs() < 1e-15 && (x - xi).abs() < 1e-15 && (dy - 1.0).abs() < 1e-14, "{shape:?}");
+            assert!(
+                (sum - 1.0).abs() < 1e-15 && (x - xi).abs() < 1e-15 && (dy - 1.0).abs() < 1e-14,
+                "{shape:?}"
+            );
         }
     }
 
@@ -199,7 +202,10 @@ mod tests {
             for i in 0..shape.nodes() {
                 let d_xi = (shape.values(xi + h, eta).n[i] - shape.values(xi - h, eta).n[i]) / (2.0 * h);
                 let d_eta = (shape.values(xi, eta + h).n[i] - shape.values(xi, eta - h).n[i]) / (2.0 * h);
-                assert!((at.dn[i][0] - d_xi).abs() < 1e-9 && (at.dn[i][1] - d_eta).abs() < 1e-9, "{shape:?} {i}");
+                assert!(
+                    (at.dn[i][0] - d_xi).abs() < 1e-9 && (at.dn[i][1] - d_eta).abs() < 1e-9,
+                    "{shape:?} {i}"
+                );
             }
         }
     }
@@ -227,7 +233,8 @@ mod tests {
             for i in 0..=degree {
                 for j in 0..=degree - i {
                     let exact = factorial(i) * factorial(j) / factorial(i + j + 2);
-                    let sum: f64 = rule.iter().map(|q| q[2] * q[0].powi(i as i32) * q[1].powi(j as i32)).sum();
+                    let sum: f64 =
+                        rule.iter().map(|q| q[2] * q[0].powi(i as i32) * q[1].powi(j as i32)).sum();
                     assert!((sum - exact).abs() < 1e-15, "triangle {i} {j}");
                 }
             }
@@ -236,7 +243,8 @@ mod tests {
         for (rule, degree) in [(rule::SQUARE_4, 3), (rule::SQUARE_9, 5)] {
             for i in 0..=degree {
                 for j in 0..=degree {
-                    let sum: f64 = rule.iter().map(|q| q[2] * q[0].powi(i as i32) * q[1].powi(j as i32)).sum();
+                    let sum: f64 =
+                        rule.iter().map(|q| q[2] * q[0].powi(i as i32) * q[1].powi(j as i32)).sum();
                     assert!((sum - side(i) * side(j)).abs() < 1e-14, "square {i} {j}");
                 }
             }

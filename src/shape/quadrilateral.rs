@@ -53,7 +53,15 @@ pub(super) fn serendipity(xi: f64, eta: f64, values: &mut Values) {
 /// Q9: products of the quadratic line functions.
 pub(super) fn biquadratic(xi: f64, eta: f64, values: &mut Values) {
     let ((n_xi, d_xi), (n_eta, d_eta)) = (lagrange3(xi), lagrange3(eta));
-    let along = |p: f64| if p < 0.0 { 0 } else if p > 0.0 { 1 } else { 2 }; // node of the line: ends, then middle
+    let along = |p: f64| {
+        if p < 0.0 {
+            0
+        } else if p > 0.0 {
+            1
+        } else {
+            2
+        }
+    }; // node of the line: ends, then middle
     for (i, p) in POINTS.iter().enumerate() {
         let (a, b) = (along(p[0]), along(p[1]));
         values.n[i] = n_xi[a] * n_eta[b];

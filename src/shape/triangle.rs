@@ -12,7 +12,8 @@
 use super::Values;
 
 /// Reference coordinates of the nodes.
-pub(super) const POINTS: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+pub(super) const POINTS: [[f64; 2]; 6] =
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 
 /// T3.
 pub(super) fn linear(xi: f64, eta: f64, values: &mut Values) {

@@ -1,0 +1,230 @@
+//! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
+
+use super::{Interface, Load, Plane, Scene, Step, split_group};
+use crate::error::{Result, name_cure};
+use crate::scene::probe::Probe;
+
+impl Scene {
+    /// Refuses the first thing that is wrong, with its line and key.
+    pub(super) fn check(&self) -> Result<()> {
+        if !(self.thickness > 0.0 && self.thickness.is_finite()) {
+            let what = format!("{} is not a thickness", self.thickness);
+            return Err(self.source.refuse(&["thickness"], what, "it must be positive"));
+        }
+        self.check_materials()?;
+        self.check_subdomains()?;
+        for (name, interface) in &self.interfaces {
+            self.check_interface(name, interface)?;
+        }
+        if self.steps.is_empty() {
+            return Err(self.source.refuse(
+                &["steps"],
+                "there is no step",
+                "add one with \"name\" and \"load\"",
+            ));
+        }
+        for (i, step) in self.steps.iter().enumerate() {
+            self.check_step(&i.to_string(), step)?;
+        }
+        for (name, text) in &self.output.history {
+            let path = ["output", "history", name];
+            Probe::parse(text, self).map_err(|(what, cure)| self.source.refuse(&path, what, cure))?;
+        }
+        Ok(())
+    }
+
+    fn check_materials(&self) -> Result<()> {
+        for (name, material) in &self.materials {
+            let refuse =
+                |key, what: String, cure| Err(self.source.refuse(&["materials", name, key], what, cure));
+            let nu = material.poisson;
+            let top_is_in = nu < 0.5 || (nu == 0.5 && self.plane == Plane::Stress);
+            if !(material.young > 0.0 && material.young.is_finite()) {
+                return refuse(
+                    "young",
+                    format!("Young's modulus {} is not a stiffness", material.young),
+                    "it must be positive",
+                );
+            }
+            if !(nu > -1.0 && top_is_in) {
+                let cure = match self.plane {
+                    Plane::Strain => {
+                        "it must lie above -1 and below 0.5 (an incompressible body needs plane stress)"
+                    }
+                    Plane::Stress => "it must lie above -1 and not above 0.5",
+                };
+                return refuse("poisson", format!("Poisson's ratio {nu} is out of range"), cure);
+            }
+            if !(material.density >= 0.0 && material.density.is_finite()) {
+                return refuse(
+                    "density",
+                    format!("{} is not a density", material.density),
+                    "it must be zero or more",
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn check_subdomains(&self) -> Result<()> {
+        if self.subdomains.is_empty() {
+            return Err(self.source.refuse(
+                &["subdomains"],
+                "there is no subdomain",
+                "add one with \"geo\" and \"material\"",
+            ));
+        }
+        for (name, subdomain) in &self.subdomains {
+            let path = ["subdomains", name.as_str()];
+            self.check_name(&path, name)?;
+            match (&subdomain.geo, &subdomain.msh) {
+                (None, None) => {
+                    return Err(self.source.refuse(&path, "neither \"geo\" nor \"msh\"", "give one of them"));
+                }
+                (Some(_), Some(_)) => {
+                    return Err(self.source.refuse(&path, "both \"geo\" and \"msh\"", "keep one of them"));
+                }
+                _ => {}
+            }
+            if subdomain.msh.is_some() && !subdomain.parameters.is_empty() {
+                let path = ["subdomains", name, "parameters"];
+                return Err(self.source.refuse(
+                    &path,
+                    "a finished mesh takes no parameters",
+                    "give \"geo\" in place of \"msh\"",
+                ));
+            }
+            if !self.materials.contains_key(&subdomain.material) {
+                let what = format!("no material \"{}\"", subdomain.material);
+                let cure = name_cure(&subdomain.material, self.materials.keys().map(String::as_str));
+                return Err(self.source.refuse(&["subdomains", name, "material"], what, cure));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_interface(&self, name: &str, interface: &Interface) -> Result<()> {
+        let path = ["interfaces", name];
+        self.check_name(&path, name)?;
+        if self.subdomains.contains_key(name) {
+            let cure = "rename one of them: both name a file of results";
+            return Err(self.source.refuse(&path, format!("\"{name}\" is also a subdomain"), cure));
+        }
+        for (key, side) in [("side_a", &interface.side_a), ("side_b", &interface.side_b)] {
+            let path = ["interfaces", name, key];
+            if side.names().is_empty() {
+                return Err(self.source.refuse(&path, "no curve", "name one, such as \"lower.top\""));
+            }
+            for group in side.names() {
+                self.check_group(&path, group)?;
+                if split_group(group).1.is_none() {
+                    let what = format!("\"{group}\" is a whole body");
+                    return Err(self.source.refuse(
+                        &path,
+                        what,
+                        format!("name a curve of it, such as \"{group}.top\""),
+                    ));
+                }
+                if split_group(group).0 != split_group(&side.names()[0]).0 {
+                    return Err(self.source.refuse(
+                        &path,
+                        "curves of several subdomains",
+                        "one side lies on one subdomain",
+                    ));
+                }
+            }
+        }
+        let bodies = [&interface.side_a, &interface.side_b].map(|side| split_group(&side.names()[0]).0);
+        if bodies[0] == bodies[1] {
+            let what = format!("both sides lie on \"{}\"", bodies[0]);
+            return Err(self.source.refuse(
+                &path,
+                what,
+                "a joint lies between two subdomains: split the body into two",
+            ));
+        }
+        if !interface.initial_traction.iter().all(|t| t.is_finite()) {
+            return Err(self.source.refuse(
+                &["interfaces", name, "initial_traction"],
+                "not a number",
+                "give [normal, tangential]",
+            ));
+        }
+        interface
+            .law
+            .check()
+            .map_err(|law| self.source.refuse(&["interfaces", name, "law", law.key], law.what, law.cure))
+    }
+
+    fn check_step(&self, index: &str, step: &Step) -> Result<()> {
+        if step.increments == 0 {
+            let path = ["steps", index, "increments"];
+            return Err(self.source.refuse(&path, "a step of 0 increments", "give 1 or more"));
+        }
+        for (key, groups) in [
+            ("fix", step.fix.keys().collect::<Vec<_>>()),
+            ("displace", step.displace.keys().collect()),
+            ("load", step.load.keys().collect()),
+            ("body_force", step.body_force.keys().collect()),
+        ] {
+            for group in groups {
+                self.check_group(&["steps", index, key, group], group)?;
+            }
+        }
+        for (group, directions) in &step.fix {
+            if directions.is_empty() {
+                let path = ["steps", index, "fix", group];
+                return Err(self.source.refuse(
+                    &path,
+                    "no direction",
+                    "give [\"x\"], [\"y\"] or [\"x\", \"y\"]",
+                ));
+            }
+        }
+        for (group, displace) in &step.displace {
+            if displace.components().next().is_none() {
+                let path = ["steps", index, "displace", group];
+                return Err(self.source.refuse(&path, "no direction", "give {\"x\": …}, {\"y\": …} or both"));
+            }
+        }
+        for (group, load) in &step.load {
+            let needs_curve = !matches!(load, Load::Force(_));
+            if split_group(group).1.is_none() {
+                let cure = if needs_curve { "name a curve of it" } else { "name a point of it" };
+                let what = format!("\"{group}\" is a whole body");
+                return Err(self.source.refuse(&["steps", index, "load", group], what, cure));
+            }
+        }
+        for group in step.body_force.keys() {
+            if split_group(group).1.is_some() {
+                let path = ["steps", index, "body_force", group];
+                return Err(self.source.refuse(
+                    &path,
+                    format!("\"{group}\" is not a subdomain"),
+                    "name the subdomain alone",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// A name that becomes a file name: letters, digits, `_` and `-`.
+    fn check_name(&self, path: &[&str], name: &str) -> Result<()> {
+        let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+        if good && !name.starts_with('-') {
+            return Ok(());
+        }
+        let what = format!("\"{name}\" cannot name a file");
+        Err(self.source.refuse(path, what, "use letters, digits, _ and -"))
+    }
+
+    /// The subdomain of a group must exist; whether it has that group is known when its mesh is.
+    fn check_group(&self, path: &[&str], group: &str) -> Result<()> {
+        let subdomain = split_group(group).0;
+        if self.subdomains.contains_key(subdomain) {
+            return Ok(());
+        }
+        let cure = name_cure(subdomain, self.subdomains.keys().map(String::as_str));
+        Err(self.source.refuse(path, format!("no subdomain \"{subdomain}\""), cure))
+    }
+}

@@ -1,0 +1,278 @@
+//! The scene: what `scene.json` says, as types that reject unknown keys.
+//!
+//! A scene names; it never numbers. Groups are written `<subdomain>.<physical group>`, `<subdomain>` alone is the
+//! whole body. Units are the user's own, as long as they are consistent.
+
+mod check;
+pub mod probe;
+mod read;
+mod schema;
+mod set;
+mod source;
+
+pub use read::read;
+pub use schema::scene_schema;
+pub use source::Source;
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::law::Law;
+
+/// A whole problem: bodies, joints, load history, what to write.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The JSON Schema of this file, so that editors complete and check it.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
+    /// One line for people.
+    #[serde(default)]
+    pub title: String,
+    /// Plane strain or plane stress.
+    pub plane: Plane,
+    /// Thickness out of the plane [length].
+    #[serde(default = "one")]
+    pub thickness: f64,
+    /// The parts, each with its own mesh.
+    pub subdomains: IndexMap<String, Subdomain>,
+    /// Elastic materials by name.
+    pub materials: IndexMap<String, Material>,
+    /// The joints between parts.
+    #[serde(default)]
+    pub interfaces: IndexMap<String, Interface>,
+    /// The load history, in order.
+    pub steps: Vec<Step>,
+    /// What is written.
+    #[serde(default)]
+    pub output: Output,
+    /// Where the scene came from; filled by the reader.
+    #[serde(skip)]
+    pub source: Source,
+}
+
+/// The out-of-plane assumption.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// No strain out of the plane: long bodies.
+    Strain,
+    /// No stress out of the plane: thin plates.
+    Stress,
+}
+
+/// One part: a geometry that gmsh meshes, or a mesh that is there.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Subdomain {
+    /// gmsh geometry, relative to the scene file. Either this or `msh`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geo: Option<String>,
+    /// gmsh mesh (MSH 4.1), relative to the scene file. Either this or `geo`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub msh: Option<String>,
+    /// Name of its material.
+    pub material: String,
+    /// Numbers handed to gmsh in place of the defaults of the `.geo` (its `DefineConstant`).
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub parameters: IndexMap<String, f64>,
+}
+
+/// Isotropic linear elastic material.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus E [stress], positive.
+    pub young: f64,
+    /// Poisson's ratio ν, above −1 and below 0.5 (0.5 allowed in plane stress).
+    pub poisson: f64,
+    /// Mass density [mass / volume], for gravity.
+    #[serde(default)]
+    pub density: f64,
+}
+
+/// A joint between two sides.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Interface {
+    /// Curve or curves of side A. The normal points from A to B.
+    pub side_a: OneOrMany,
+    /// Curve or curves of side B.
+    pub side_b: OneOrMany,
+    /// How the unmatched sides are joined.
+    #[serde(default)]
+    pub coupling: CouplingKind,
+    /// Where in its interval the law acts.
+    #[serde(default)]
+    pub quadrature: Quadrature,
+    /// The law.
+    pub law: Law,
+    /// Initial traction (n, t) [stress] (paper eq. 10).
+    #[serde(default)]
+    pub initial_traction: [f64; 2],
+}
+
+/// One name or a list of names.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OneOrMany {
+    /// One name.
+    One(String),
+    /// Several names.
+    Many(Vec<String>),
+}
+
+/// How two unmatched sides are joined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CouplingKind {
+    /// The jump is projected on a grid of the mid-plane; good at every stiffness.
+    #[default]
+    Projected,
+    /// The law acts at points of every segment (paper eq. 14); exact to the paper, fragile when stiff.
+    Pointwise,
+}
+
+/// Quadrature along the mid-plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Quadrature {
+    /// Gauss points, inside the interval.
+    #[default]
+    Gauss,
+    /// Lobatto points, the ends included.
+    Lobatto,
+}
+
+/// A stage of loading. Supports and loads stay in force in later steps unless replaced.
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Step {
+    /// Its name, for messages and the history.
+    pub name: String,
+    /// Equal parts in which the step is applied.
+    #[serde(default = "one_increment")]
+    pub increments: usize,
+    /// Directions held at zero, by group.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub fix: IndexMap<String, Vec<Direction>>,
+    /// Total displacement by group, ramped from its value at the start of the step [length].
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub displace: IndexMap<String, Displace>,
+    /// Loads by group, ramped from their last value.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub load: IndexMap<String, Load>,
+    /// Force per volume (x, y) by subdomain [force / volume], ramped from its last value.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub body_force: IndexMap<String, [f64; 2]>,
+    /// Acceleration (x, y) that acts on every density [length / time²], ramped from its last value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 2]>,
+}
+
+/// A coordinate direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// x
+    X,
+    /// y
+    Y,
+}
+
+/// Prescribed displacement; a direction that is not named stays as it was.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Displace {
+    /// Displacement in x [length].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<f64>,
+    /// Displacement in y [length].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y: Option<f64>,
+}
+
+/// A load on a group.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Load {
+    /// Force per area (x, y) on a curve [stress].
+    Traction([f64; 2]),
+    /// Pressure on a curve, positive against the body [stress].
+    Pressure(f64),
+    /// Force (x, y) at a point, through the whole thickness [force].
+    Force([f64; 2]),
+}
+
+/// What is written.
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Which increments write their fields.
+    #[serde(default)]
+    pub fields: Fields,
+    /// Columns of history.csv: name → probe, such as `joint.traction_t@0.5`.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub history: IndexMap<String, String>,
+}
+
+/// Which increments write their fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Fields {
+    /// The unloaded state and every increment.
+    #[default]
+    Every,
+    /// The unloaded state and the end of every step.
+    Step,
+    /// The last increment only.
+    Last,
+    /// None.
+    None,
+}
+
+impl OneOrMany {
+    /// The names in order.
+    pub fn names(&self) -> &[String] {
+        match self {
+            OneOrMany::One(name) => std::slice::from_ref(name),
+            OneOrMany::Many(names) => names,
+        }
+    }
+}
+
+impl Direction {
+    /// Component number.
+    pub fn component(self) -> usize {
+        self as usize
+    }
+
+    /// "x" or "y".
+    pub fn name(self) -> &'static str {
+        ["x", "y"][self.component()]
+    }
+}
+
+impl Displace {
+    /// The prescribed components: (direction, value).
+    pub fn components(&self) -> impl Iterator<Item = (Direction, f64)> {
+        [(Direction::X, self.x), (Direction::Y, self.y)].into_iter().filter_map(|(d, v)| v.map(|v| (d, v)))
+    }
+}
+
+/// Splits `<subdomain>.<group>`; a name without a dot is the whole body.
+pub fn split_group(name: &str) -> (&str, Option<&str>) {
+    match name.split_once('.') {
+        Some((subdomain, group)) => (subdomain, Some(group)),
+        None => (name, None),
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn one_increment() -> usize {
+    1
+}

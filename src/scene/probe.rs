@@ -1,0 +1,121 @@
+//! Probes: what a column of history.csv asks for.
+//!
+//! `joint.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
+//! group, `joint.resultant_t` the force across a joint, `energy.stored`, `energy.dissipated`, `work.external`.
+
+use super::{Direction, Scene};
+use crate::error::name_cure;
+
+/// A question to an increment.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Probe {
+    /// A field of an interface at a fraction of its length.
+    Joint {
+        /// The interface.
+        interface: String,
+        /// Which field.
+        field: JointField,
+        /// 0 at the start of the mid-plane, 1 at its end, counted along chain A with n on its left.
+        fraction: f64,
+    },
+    /// Resultant of the traction across an interface [force].
+    Resultant {
+        /// The interface.
+        interface: String,
+        /// Component: n or t.
+        component: usize,
+    },
+    /// Mean displacement of a group [length].
+    Displacement {
+        /// The group, `<subdomain>` or `<subdomain>.<group>`.
+        group: String,
+        /// Its direction.
+        direction: Direction,
+    },
+    /// Elastic energy of bodies and joints [force × length].
+    EnergyStored,
+    /// Energy dissipated by the joints so far [force × length].
+    EnergyDissipated,
+    /// Work done by loads and prescribed displacements so far [force × length].
+    WorkExternal,
+}
+
+/// A field along an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointField {
+    /// Jump, component n or t [length].
+    Jump(usize),
+    /// Traction, component n or t [stress].
+    Traction(usize),
+    /// Work spent on fracture [stress × length].
+    FractureWork,
+}
+
+const JOINT_FIELDS: [(&str, JointField); 5] = [
+    ("jump_n", JointField::Jump(0)),
+    ("jump_t", JointField::Jump(1)),
+    ("traction_n", JointField::Traction(0)),
+    ("traction_t", JointField::Traction(1)),
+    ("fracture_work", JointField::FractureWork),
+];
+
+impl Probe {
+    /// Reads a probe; on failure (what is wrong, what would have been right).
+    pub fn parse(text: &str, scene: &Scene) -> std::result::Result<Probe, (String, String)> {
+        match text {
+            "energy.stored" => return Ok(Probe::EnergyStored),
+            "energy.dissipated" => return Ok(Probe::EnergyDissipated),
+            "work.external" => return Ok(Probe::WorkExternal),
+            _ => {}
+        }
+        let Some((object, field)) = text.rsplit_once('.').filter(|_| !text.contains('@')).or_else(|| {
+            let dot = text.split('@').next().and_then(|head| head.rfind('.'))?;
+            Some((&text[..dot], &text[dot + 1..]))
+        }) else {
+            let cure = "write something like joint.traction_t@0.5, upper.top.displacement_y or energy.stored";
+            return Err((format!("\"{text}\" is not a probe"), cure.into()));
+        };
+        if scene.interfaces.contains_key(object) {
+            return joint(object, field);
+        }
+        if scene.subdomains.contains_key(super::split_group(object).0) {
+            let direction = match field {
+                "displacement_x" => Direction::X,
+                "displacement_y" => Direction::Y,
+                _ => {
+                    return Err((
+                        format!("no field \"{field}\""),
+                        name_cure(field, ["displacement_x", "displacement_y"]),
+                    ));
+                }
+            };
+            return Ok(Probe::Displacement { group: object.into(), direction });
+        }
+        let names = scene.interfaces.keys().chain(scene.subdomains.keys()).map(String::as_str);
+        let names = names.chain(["energy", "work"]);
+        Err((format!("no interface or subdomain \"{object}\""), name_cure(object, names)))
+    }
+}
+
+fn joint(interface: &str, field: &str) -> std::result::Result<Probe, (String, String)> {
+    let (name, fraction) = match field.split_once('@') {
+        Some((name, fraction)) => (name, Some(fraction)),
+        None => (field, None),
+    };
+    let component = ["resultant_n", "resultant_t"].iter().position(|&r| r == name);
+    if let (Some(component), None) = (component, fraction) {
+        return Ok(Probe::Resultant { interface: interface.into(), component });
+    }
+    let Some(&(_, field)) = JOINT_FIELDS.iter().find(|(known, _)| *known == name) else {
+        let names = JOINT_FIELDS.iter().map(|(name, _)| *name).chain(["resultant_n", "resultant_t"]);
+        return Err((format!("no field \"{name}\""), name_cure(name, names)));
+    };
+    let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));
+    match number {
+        Some(fraction) => Ok(Probe::Joint { interface: interface.into(), field, fraction }),
+        None => Err((
+            format!("\"{}\" does not say where", fraction.unwrap_or(name)),
+            format!("add a fraction of the length from 0 to 1, such as {name}@0.5"),
+        )),
+    }
+}

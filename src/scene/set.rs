@@ -1,0 +1,86 @@
+//! `--set KEY=VALUE`: one value of the scene replaced from the command line.
+//!
+//! KEY is a path with dots, `steps.0.load.upper.top.pressure`, or a JSON pointer, `/steps/0/load/upper.top/pressure`.
+//! Keys that hold dots themselves are found because the longest key that exists wins. VALUE is JSON, or else a string.
+
+use std::path::Path;
+
+use serde_json::{Map, Value};
+
+use crate::error::{At, Error, Result};
+
+/// Applies one `KEY=VALUE` to a scene.
+pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()> {
+    let refuse = |what: String, cure: &str| Error::Text {
+        at: Box::new(At { file: file.into(), key: format!("--set {setting}"), ..At::default() }),
+        what,
+        cure: cure.into(),
+    };
+    let (key, value) = setting
+        .split_once('=')
+        .ok_or_else(|| refuse("no \"=\"".into(), "write --set KEY=VALUE, such as --set thickness=0.1"))?;
+    let value = serde_json::from_str(value).unwrap_or_else(|_| Value::String(value.into()));
+    let mut parts: Vec<String> = match key.strip_prefix('/') {
+        Some(pointer) => pointer.split('/').map(|part| part.replace("~1", "/").replace("~0", "~")).collect(),
+        None => key.split('.').map(str::to_string).collect(),
+    };
+    if parts.iter().any(String::is_empty) {
+        return Err(refuse("an empty part in the key".into(), "write a key such as steps.0.increments"));
+    }
+    let mut at = scene;
+    while !parts.is_empty() {
+        at = match at {
+            Value::Object(object) => {
+                let taken = (1..=parts.len())
+                    .rev()
+                    .find(|&n| object.contains_key(&parts[..n].join(".")))
+                    .unwrap_or(1);
+                let name: String = parts.drain(..taken).collect::<Vec<_>>().join(".");
+                let empty = if parts.is_empty() { Value::Null } else { Value::Object(Map::new()) };
+                object.entry(name).or_insert(empty)
+            }
+            Value::Array(list) => {
+                let part = parts.remove(0);
+                let length = list.len();
+                part.parse::<usize>().ok().and_then(|i| list.get_mut(i)).ok_or_else(|| {
+                    refuse(
+                        format!("no entry {part}"),
+                        &format!("the list has entries 0 to {}", length.max(1) - 1),
+                    )
+                })?
+            }
+            other => {
+                let what = format!("\"{}\" goes below the value {other}", parts.join("."));
+                return Err(refuse(what, "shorten the key"));
+            }
+        };
+    }
+    *at = value;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn dotted_keys_and_pointers_reach_the_same_value() {
+        let scene = json!({"steps": [{"load": {"upper.top": {"pressure": 1.0}}}]});
+        for key in ["steps.0.load.upper.top.pressure", "/steps/0/load/upper.top/pressure"] {
+            let mut changed = scene.clone();
+            apply(&mut changed, &format!("{key}=2.5"), Path::new("s.json")).unwrap();
+            assert_eq!(changed["steps"][0]["load"]["upper.top"]["pressure"], json!(2.5));
+        }
+    }
+
+    #[test]
+    fn missing_parents_are_made_and_wrong_keys_are_refused() {
+        let mut scene = json!({"subdomains": {"lower": {}}, "steps": []});
+        apply(&mut scene, "subdomains.lower.parameters.n=12", Path::new("s.json")).unwrap();
+        assert_eq!(scene["subdomains"]["lower"]["parameters"]["n"], json!(12));
+        for wrong in ["thickness", "steps.3.name=x", "subdomains.lower.parameters.n.m=1", "a..b=1"] {
+            assert!(apply(&mut scene, wrong, Path::new("s.json")).is_err(), "{wrong}");
+        }
+    }
+}
