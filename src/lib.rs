@@ -22,3 +22,7 @@ pub mod law;
 pub mod mesh;
 pub mod scene;
 pub mod shape;
+pub mod coupling;
+pub mod continuum;
+pub mod assembly;
+pub mod solver;

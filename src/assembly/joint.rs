@@ -1,0 +1,150 @@
+//! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
+
+use super::{Pattern, Symmetric};
+use crate::coupling::{Coupling, Csr};
+
+/// A coupling whose columns are dofs of the model.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Name of the interface.
+    pub name: String,
+    /// The coupling with its geometry; its own `jump` is in side columns.
+    pub coupling: Coupling,
+    /// Bodies of side A and side B.
+    pub bodies: [usize; 2],
+    /// G on global dofs.
+    jump: Csr,
+    thickness: f64,
+}
+
+impl Joint {
+    /// Puts a coupling on the dofs of a model whose bodies start at the nodes `first`.
+    pub fn new(name: &str, coupling: Coupling, bodies: [usize; 2], first: [usize; 2], dofs: usize, thickness: f64) -> Joint {
+        let c = coupling.components;
+        let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
+        let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);
+        let nodes: Vec<usize> = nodes_a.chain(nodes_b).collect();
+        let mut jump = coupling.jump.clone();
+        jump.width = dofs;
+        for column in &mut jump.columns {
+            *column = c * nodes[*column / c] + *column % c;
+        }
+        Joint { name: name.into(), coupling, bodies, jump, thickness }
+    }
+
+    /// Jumps (n, t, …) at the law points for displacements u.
+    pub fn jumps(&self, u: &[f64]) -> Vec<f64> {
+        let c = self.coupling.components;
+        let coefficients = self.jump.multiply(u);
+        let mut jumps = vec![0.0; c * self.coupling.points.len()];
+        for (point, jump) in self.coupling.points.iter().zip(jumps.chunks_exact_mut(c)) {
+            for (row, jump) in point.rotation.iter().zip(jump) {
+                for (i, n) in point.interpolation {
+                    let a = &coefficients[c * i..c * (i + 1)];
+                    *jump += n * row.iter().zip(a).map(|(r, a)| r * a).sum::<f64>();
+                }
+            }
+        }
+        jumps
+    }
+
+    /// f += Gᵀ Σ w Nᵀ Rᵀ t for tractions (n, t, …) at the law points.
+    pub fn add_force(&self, tractions: &[f64], f: &mut [f64]) {
+        let c = self.coupling.components;
+        let mut q = vec![0.0; self.jump.rows()];
+        for (point, traction) in self.coupling.points.iter().zip(tractions.chunks_exact(c)) {
+            for (i, n) in point.interpolation {
+                for (row, t) in point.rotation.iter().zip(traction) {
+                    for (q, r) in q[c * i..c * (i + 1)].iter_mut().zip(row) {
+                        *q += self.thickness * point.weight * n * r * t;
+                    }
+                }
+            }
+        }
+        self.jump.add_transposed(&q, f);
+    }
+
+    /// Sets of nodes that the joint's stiffness connects with each other.
+    pub fn cliques(&self) -> Vec<Vec<usize>> {
+        let c = self.coupling.components;
+        let product = self.multiplied(&vec![1.0; c * c * self.coupling.points.len()]);
+        let nodes_of = |i: usize| {
+            let mut nodes: Vec<usize> =
+                (c * i..c * (i + 1)).flat_map(|row| product.row(row).0).map(|dof| dof / c).collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes
+        };
+        (0..self.coupling.coefficients()).map(nodes_of).collect()
+    }
+
+    /// Adds the stiffness for symmetric law stiffnesses D, components² values per law point.
+    pub fn add_stiffness(&self, pattern: &Pattern, stiffness: &[f64], k: &mut Symmetric) {
+        let c = self.coupling.components;
+        let product = self.multiplied(stiffness);
+        for row in 0..self.jump.rows() {
+            let (left, left_values) = self.jump.row(row);
+            let (right, right_values) = product.row(row);
+            for (&j, right) in right.iter().zip(right_values) {
+                let from = left.partition_point(|&i| i < j);
+                for (&i, left) in left[from..].iter().zip(&left_values[from..]) {
+                    let at = pattern.block(i / c, j / c);
+                    k.values[at[j % c] + i % c] += left * right;
+                }
+            }
+        }
+    }
+
+    /// T G with T = h Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p.
+    fn multiplied(&self, stiffness: &[f64]) -> Csr {
+        let c = self.coupling.components;
+        let mut triplets = Vec::new();
+        for (point, d) in self.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
+            let r = &point.rotation;
+            for (i, ni) in point.interpolation.into_iter().filter(|(_, n)| *n != 0.0) {
+                for (j, nj) in point.interpolation.into_iter().filter(|(_, n)| *n != 0.0) {
+                    let w = self.thickness * point.weight * ni * nj;
+                    for a in 0..c {
+                        for b in 0..c {
+                            let mut sum = 0.0;
+                            for m in 0..c {
+                                for n in 0..c {
+                                    sum += r[m][a] * d[c * m + n] * r[n][b];
+                                }
+                            }
+                            triplets.push((c * i + a, c * j + b, w * sum));
+                        }
+                    }
+                }
+            }
+        }
+        let t = Csr::from_triplets(self.jump.rows(), self.jump.rows(), &triplets);
+        product(&t, &self.jump)
+    }
+}
+
+/// A B, row by row.
+fn product(a: &Csr, b: &Csr) -> Csr {
+    let mut result = Csr { offsets: vec![0], width: b.width, ..Csr::default() };
+    let mut row: Vec<(usize, f64)> = Vec::new();
+    for i in 0..a.rows() {
+        row.clear();
+        let (columns, values) = a.row(i);
+        for (&k, &value) in columns.iter().zip(values) {
+            let (b_columns, b_values) = b.row(k);
+            row.extend(b_columns.iter().zip(b_values).map(|(&j, b)| (j, value * b)));
+        }
+        row.sort_by_key(|&(j, _)| j);
+        for &(j, value) in &row {
+            if result.columns.len() > result.offsets[i] && result.columns[result.columns.len() - 1] == j {
+                let end = result.values.len() - 1;
+                result.values[end] += value;
+            } else {
+                result.columns.push(j);
+                result.values.push(value);
+            }
+        }
+        result.offsets.push(result.columns.len());
+    }
+    result
+}

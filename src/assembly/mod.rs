@@ -1,0 +1,96 @@
+//! From elements to one sparse system: numbering, pattern, stiffness.
+//!
+//! ```text
+//! dof = components · (first node of the body + node) + direction
+//! ```
+
+mod joint;
+mod matrix;
+mod pattern;
+
+pub use joint::Joint;
+pub use matrix::Symmetric;
+pub use pattern::Pattern;
+
+use crate::continuum::{Elasticity, cell_coordinates, element_stiffness};
+use crate::mesh::Mesh;
+
+/// One body of the model.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Name of the subdomain.
+    pub name: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its material in the scene's plane state.
+    pub elasticity: Elasticity,
+    /// Mass density [mass / volume].
+    pub density: f64,
+    /// Number of its first node in the model.
+    pub first_node: usize,
+}
+
+/// All bodies and joints with their numbering.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Displacement components per node.
+    pub components: usize,
+    /// Thickness out of the plane [length].
+    pub thickness: f64,
+    /// The bodies, their nodes numbered one after the other.
+    pub bodies: Vec<Body>,
+    /// The joints on global dofs.
+    pub joints: Vec<Joint>,
+}
+
+impl Model {
+    /// Number of nodes of all bodies.
+    pub fn nodes(&self) -> usize {
+        self.bodies.last().map_or(0, |body| body.first_node + body.mesh.points.len())
+    }
+
+    /// Number of dofs, held ones included.
+    pub fn dofs(&self) -> usize {
+        self.components * self.nodes()
+    }
+
+    /// Dofs of one body.
+    pub fn dofs_of(&self, body: usize) -> std::ops::Range<usize> {
+        let body = &self.bodies[body];
+        self.components * body.first_node..self.components * (body.first_node + body.mesh.points.len())
+    }
+
+    /// The pattern that continuum and joints fill together.
+    pub fn pattern(&self) -> Pattern {
+        let cells = self.bodies.iter().flat_map(|body| {
+            let cells = &body.mesh.cells;
+            (0..cells.len()).map(move |c| (body.first_node, cells.nodes(c)))
+        });
+        let joints: Vec<Vec<usize>> = self.joints.iter().flat_map(Joint::cliques).collect();
+        let cliques = joints.iter().map(|nodes| (0, nodes.as_slice()));
+        Pattern::new(self.components, self.nodes(), || cells.clone().chain(cliques.clone()))
+    }
+
+    /// K of the continuum on a pattern.
+    pub fn continuum(&self, pattern: &Pattern) -> Symmetric {
+        let mut stiffness = Symmetric::zero(pattern);
+        for body in &self.bodies {
+            for c in 0..body.mesh.cells.len() {
+                let nodes = body.mesh.cells.nodes(c);
+                let x = cell_coordinates(&body.mesh, c);
+                let k = element_stiffness(body.mesh.cells.shapes[c], &x, &body.elasticity, self.thickness);
+                for (j, &node_j) in nodes.iter().enumerate() {
+                    for (i, &node_i) in nodes.iter().enumerate().filter(|(_, node_i)| **node_i >= node_j) {
+                        let at = pattern.block(body.first_node + node_i, body.first_node + node_j);
+                        for (b, column) in at.into_iter().enumerate() {
+                            for a in if i == j { b } else { 0 }..2 {
+                                stiffness.values[column + a] += k[2 * i + a][2 * j + b];
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        stiffness
+    }
+}

@@ -1,0 +1,18 @@
+//! The plane elastic continuum: element stiffness, loads, stress recovery.
+//!
+//! ```text
+//! K_e = h ∫ Bᵀ C B dA,      f_e = h ∫ Nᵀ b dA + h ∫ Nᵀ t dL        (h: thickness)
+//! ```
+//!
+//! An element returns its small matrix and touches nothing global. Strain is (ε_xx, ε_yy, γ_xy), stress
+//! (σ_xx, σ_yy, σ_xy); dofs of an element are ordered node by node, x before y.
+
+mod element;
+mod load;
+mod material;
+mod recovery;
+
+pub use element::{ElementStiffness, cell_coordinates, element_stiffness};
+pub use load::{cell_weights, edge_force, edge_weights};
+pub use material::{Elasticity, Plane};
+pub use recovery::{Stresses, principal, recover};

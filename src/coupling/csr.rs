@@ -1,0 +1,106 @@
+//! A sparse matrix in compressed rows.
+
+/// Rows of (column, value), columns ascending within a row.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Csr {
+    /// Start of every row, one more entry than rows.
+    pub offsets: Vec<usize>,
+    /// Column of every entry.
+    pub columns: Vec<usize>,
+    /// Value of every entry.
+    pub values: Vec<f64>,
+    /// Number of columns.
+    pub width: usize,
+}
+
+impl Csr {
+    /// Sums entries (row, column, value) given in any order.
+    pub fn from_triplets(rows: usize, width: usize, triplets: &[(usize, usize, f64)]) -> Csr {
+        let mut sorted: Vec<(usize, usize, f64)> = triplets.to_vec();
+        sorted.sort_by_key(|&(i, j, _)| (i, j)); // stable: equal places are summed in the order given
+        let mut csr = Csr { offsets: vec![0; rows + 1], width, ..Csr::default() };
+        let mut last = None;
+        for (i, j, value) in sorted {
+            if last == Some((i, j)) {
+                let end = csr.values.len() - 1;
+                csr.values[end] += value;
+            } else {
+                csr.columns.push(j);
+                csr.values.push(value);
+                csr.offsets[i + 1] += 1;
+                last = Some((i, j));
+            }
+        }
+        for i in 0..rows {
+            csr.offsets[i + 1] += csr.offsets[i];
+        }
+        csr
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Columns and values of row `i`.
+    pub fn row(&self, i: usize) -> (&[usize], &[f64]) {
+        let range = self.offsets[i]..self.offsets[i + 1];
+        (&self.columns[range.clone()], &self.values[range])
+    }
+
+    /// y = A x
+    pub fn multiply(&self, x: &[f64]) -> Vec<f64> {
+        (0..self.rows())
+            .map(|i| {
+                let (columns, values) = self.row(i);
+                columns.iter().zip(values).map(|(&j, v)| v * x[j]).sum()
+            })
+            .collect()
+    }
+
+    /// y += Aᵀ x
+    pub fn add_transposed(&self, x: &[f64], y: &mut [f64]) {
+        for i in 0..self.rows() {
+            let (columns, values) = self.row(i);
+            for (&j, v) in columns.iter().zip(values) {
+                y[j] += v * x[i];
+            }
+        }
+    }
+
+    /// The transposed matrix.
+    pub fn transposed(&self) -> Csr {
+        let mut offsets = vec![0; self.width + 1];
+        for &j in &self.columns {
+            offsets[j + 1] += 1;
+        }
+        for j in 0..self.width {
+            offsets[j + 1] += offsets[j];
+        }
+        let (mut columns, mut values) = (vec![0; self.columns.len()], vec![0.0; self.values.len()]);
+        let mut next = offsets.clone();
+        for i in 0..self.rows() {
+            let (row, entries) = self.row(i);
+            for (&j, &value) in row.iter().zip(entries) {
+                (columns[next[j]], values[next[j]]) = (i, value);
+                next[j] += 1;
+            }
+        }
+        Csr { offsets, columns, values, width: self.rows() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triplets_are_summed_and_products_agree_with_the_transposed() {
+        let a = Csr::from_triplets(2, 3, &[(1, 2, 4.0), (0, 1, 1.0), (1, 0, 3.0), (0, 1, 1.0)]);
+        assert_eq!(a.multiply(&[1.0, 10.0, 100.0]), [20.0, 403.0]);
+        let mut y = [0.0; 3];
+        a.add_transposed(&[1.0, 10.0], &mut y);
+        assert_eq!(y, [30.0, 2.0, 40.0]);
+        assert_eq!(a.transposed().multiply(&[1.0, 10.0]), y);
+    }
+}
