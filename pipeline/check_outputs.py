@@ -1,0 +1,301 @@
+"""Check the results of one scene from outside, with programs that know nothing of midplane.
+
+Every VTU is read by meshio and by VTK (through pyvista), and both must find the same points, cells and arrays, of the
+shapes and names the README promises, and finite. The .pvd must name exactly the files there are, history.csv must
+hold a row per increment. Then statics: in every increment the loads and reactions of the whole model balance, and so
+do those of each subdomain together with the tractions of its interfaces, which are integrated here from the VTUs.
+
+One line per scene if all is well; otherwise a line per fault, and exit code 1.
+"""
+
+import argparse
+import csv
+import json
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pyvista
+
+# name -> components
+SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6}
+SUBDOMAIN_CELLS = {"stress": 6, "principal_stress": 3}
+INTERFACE_POINTS = {
+    "jump": 2,
+    "jump_plastic": 2,
+    "traction": 2,
+    "fracture_work": 1,
+    "status": 1,
+    "length": 1,
+    "normal": 3,
+}
+MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
+
+HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
+STATUSES = range(5)
+BALANCE = 1e-10  # of the largest force; where the solution is iterated, no better than its own residual
+ROUND_OFF = 1e-12  # of the quantity compared
+
+
+class Faults(list):
+    """The faults found so far; every check adds to it and goes on."""
+
+    def expect(self, good, text):
+        if not good:
+            self.append(text)
+        return good
+
+
+def read_twice(path, faults):
+    """The file as pyvista reads it, after meshio has agreed; None if it cannot be read."""
+    try:
+        other = meshio.read(path)
+        grid = pyvista.read(path)
+    except Exception as error:  # two foreign readers, each with its own exceptions
+        faults.append(f"{path}: cannot be read: {error}")
+        return None
+    faults.expect(np.array_equal(other.points, grid.points), f"{path}: meshio and VTK read different points")
+    corners = np.concatenate([block.data.ravel() for block in other.cells])
+    sizes = [block.data.shape[1] for block in other.cells for _ in block.data]
+    same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(sizes, np.diff(grid.offset))
+    faults.expect(same, f"{path}: meshio and VTK read different cells")
+    cell_data = {name: np.concatenate(blocks) for name, blocks in other.cell_data.items()}
+    for place, ours, theirs in [("point", other.point_data, grid.point_data), ("cell", cell_data, grid.cell_data)]:
+        if faults.expect(
+            set(ours) == set(theirs.keys()),
+            f"{path}: {place} arrays differ, meshio {sorted(ours)}, VTK {sorted(theirs.keys())}",
+        ):
+            for name, values in ours.items():
+                same = np.array_equal(values, theirs[name], equal_nan=True)
+                faults.expect(same, f"{path}: meshio and VTK read different {place} {name}")
+    faults.expect(np.isfinite(grid.points).all(), f"{path}: a point is not finite")
+    return grid
+
+
+def check_arrays(path, place, data, wanted, faults):
+    """Exactly the wanted arrays, each with its components and finite. True if they can be used further."""
+    good = faults.expect(
+        set(data.keys()) == set(wanted),
+        f"{path}: {place} arrays are {sorted(data.keys())}, should be {sorted(wanted)}",
+    )
+    for name, components in wanted.items():
+        if name in data.keys():
+            values = data[name]
+            found = 1 if values.ndim == 1 else values.shape[1]
+            good &= faults.expect(
+                found == components, f"{path}: {place} {name} has {found} components, should have {components}"
+            )
+            good &= faults.expect(np.isfinite(values).all(), f"{path}: {place} {name} is not finite")
+    return good
+
+
+def check_subdomain(path, grid, faults):
+    """Displacements and stresses of a subdomain; the principal stresses belong to the stresses."""
+    good = check_arrays(path, "point", grid.point_data, SUBDOMAIN_POINTS, faults)
+    good &= check_arrays(path, "cell", grid.cell_data, SUBDOMAIN_CELLS, faults)
+    if not good:
+        return
+    xx, yy, zz, xy, yz, xz = grid.cell_data["stress"].T
+    first, second, third = grid.cell_data["principal_stress"].T
+    size = max(np.abs(grid.cell_data["stress"]).max(), np.finfo(float).tiny)
+
+    def close(a, b):
+        return np.abs(a - b).max() <= ROUND_OFF * size
+
+    faults.expect((first >= second).all(), f"{path}: principal_stress is not in order s1 >= s2")
+    faults.expect(
+        close(first + second, xx + yy) and close(first - second, np.hypot(xx - yy, 2 * xy)) and close(third, zz),
+        f"{path}: principal_stress does not belong to stress",
+    )
+    faults.expect(not yz.any() and not xz.any(), f"{path}: stress yz or xz in a plane scene")
+
+
+def check_interface(path, grid, faults):
+    """Law points in order along the mid-plane, with lengths, unit normals and known statuses."""
+    good = check_arrays(path, "point", grid.point_data, INTERFACE_POINTS, faults)
+    good &= check_arrays(path, "cell", grid.cell_data, {}, faults)
+    if not good:
+        return
+    faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines")
+    faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
+    faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in 0 ... {STATUSES[-1]}")
+    lengths = np.linalg.norm(grid["normal"], axis=1)
+    faults.expect(np.abs(lengths - 1).max() <= ROUND_OFF, f"{path}: a normal is not of unit length")
+
+
+def check_midplane(path, faults):
+    """Segments (kind 0) with their parent edges, and cells of the grid (kind 1), both of the same total length."""
+    grid = read_twice(path, faults)
+    if grid is None or not check_arrays(path, "cell", grid.cell_data, MIDPLANE_CELLS, faults):
+        return
+    if not faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines"):
+        return
+    kind = grid["kind"]
+    faults.expect(np.isin(kind, (0, 1)).all(), f"{path}: kind is neither 0 nor 1")
+    ends = grid.points[grid.cell_connectivity.reshape(-1, 2)]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    total = length[kind == 0].sum()
+    faults.expect((length > 0).all(), f"{path}: a cell has no length")
+    # no equality: the chords of the grid cut the corners of a curved mid-plane
+    covered = length[kind == 1].sum()
+    faults.expect(covered <= total * (1 + 1e-9), f"{path}: the grid is longer than its segments")
+
+
+def read_history(path, scene, faults):
+    """The rows of history.csv, numbers as numbers."""
+    with open(path, newline="") as file:
+        reader = csv.DictReader(file)
+        rows = list(reader)
+        columns = reader.fieldnames or []
+    probes = list(scene.get("output", {}).get("history", {}))
+    wanted = HISTORY_COLUMNS + probes
+    faults.expect(columns[: len(wanted)] == wanted, f"{path}: columns are {columns}, should begin with {wanted}")
+    for column in columns[len(wanted) :]:
+        faults.expect(column.startswith(("reaction:", "load:")), f"{path}: unexpected column {column}")
+    for number, row in enumerate(rows, 1):
+        for column in columns:
+            if column == "step":
+                continue
+            try:
+                row[column] = float(row[column])
+            except (TypeError, ValueError):
+                row[column] = np.nan
+            faults.expect(np.isfinite(row[column]), f"{path}: row {number}, {column} is not a finite number")
+    steps = [step["name"] for step in scene["steps"]]
+    seen = list(dict.fromkeys(row.get("step") for row in rows))
+    faults.expect(seen == steps[: len(seen)], f"{path}: steps are {seen}, the scene's are {steps}")
+    return rows
+
+
+def collection(path, faults):
+    """The files that the .pvd names, which must be all there are in fields/."""
+    named, last = [], -np.inf
+    for dataset in ElementTree.parse(path).iter("DataSet"):
+        named.append(dataset.get("file"))
+        time = float(dataset.get("timestep"))
+        faults.expect(time >= last, f"{path}: time goes back at {named[-1]}")
+        last = max(last, time)
+    present = {f"fields/{file.name}" for file in path.parent.glob("fields/*")}
+    faults.expect(len(named) == len(set(named)), f"{path}: names a file twice")
+    faults.expect(set(named) == present, f"{path}: names and files differ: {sorted(set(named) ^ present)}")
+    return [path.parent / file for file in named if file in present]
+
+
+def resultant(grid, thickness):
+    """Force of side B on side A: the tractions summed over the law points."""
+    normal = grid["normal"][:, :2]
+    tangent = np.column_stack([normal[:, 1], -normal[:, 0]])
+    traction = grid["traction"][:, :1] * normal + grid["traction"][:, 1:] * tangent
+    return thickness * grid["length"] @ traction
+
+
+def sides(interface):
+    """Subdomains of side A and of side B, as the scene names them."""
+    names = []
+    for side in ("side_a", "side_b"):
+        groups = interface.get(side, [])
+        groups = [groups] if isinstance(groups, str) else groups
+        names.append({group.partition(".")[0] for group in groups})
+    return names
+
+
+def forces(row, subdomain=None):
+    """Loads and reactions of one increment, of one subdomain or of all: a list of vectors."""
+    found = []
+    for column, value in row.items():
+        if column.startswith(("reaction:", "load:")):
+            _, group, direction = column.split(":")
+            if subdomain in (None, group.partition(".")[0]):
+                found.append([value, 0.0] if direction == "x" else [0.0, value])
+    return found
+
+
+def check_balance(scene, rows, interfaces, faults):
+    """Forces on the whole model and on each subdomain sum to zero. Returns the two largest errors, relative."""
+    thickness = scene.get("thickness", 1.0)
+    worst_whole = worst_part = 0.0
+    for number, row in enumerate(rows, 1):
+        allowed = max(BALANCE, row["residual"])
+        whole = np.array(forces(row))
+        size = np.abs(whole).max(initial=np.finfo(float).tiny)
+        error = np.abs(whole.sum(axis=0)).max(initial=0.0) / size
+        worst_whole = max(worst_whole, error)
+        faults.expect(
+            error <= allowed,
+            f"history.csv: row {number}, loads and reactions leave {error:.1e} of the largest of them",
+        )
+        here = interfaces.get(number, {})
+        if set(here) != set(scene.get("interfaces", {})):
+            continue  # not every interface is stored at this increment, or the scene does not name each
+        for subdomain in scene["subdomains"]:
+            parts = forces(row, subdomain)
+            for name, grid in here.items():
+                a, b = sides(scene["interfaces"][name])
+                if subdomain in a | b:
+                    parts.append(resultant(grid, thickness) * ((a == {subdomain}) - (b == {subdomain})))
+            error = np.abs(np.sum(parts, axis=0)).max(initial=0.0) / size
+            worst_part = max(worst_part, error)
+            faults.expect(
+                error <= allowed,
+                f"increment {number}: loads, reactions and interface tractions on {subdomain} leave {error:.1e}"
+                " of the largest force",
+            )
+    return worst_whole, worst_part
+
+
+def check(results, scene, faults):
+    """All checks of one results folder. Returns the sentence for the user."""
+    for name in ("history.csv", "summary.json"):
+        if not faults.expect((results / name).is_file(), f"{results}: no {name}"):
+            return ""
+    collections = list(results.glob("*.pvd"))
+    if not faults.expect(len(collections) == 1, f"{results}: {len(collections)} .pvd files, should be one"):
+        return ""
+    summary = json.loads((results / "summary.json").read_text())
+    faults.expect(isinstance(summary, dict) and summary, f"{results}/summary.json: not an object with content")
+
+    rows = read_history(results / "history.csv", scene, faults)
+    interfaces, last, files = {}, 0, collection(collections[0], faults)
+    for path in files:
+        name, _, number = path.stem.rpartition("_")
+        last = max(last, int(number))
+        grid = read_twice(path, faults)
+        if grid is None:
+            continue
+        if name in scene["subdomains"]:
+            check_subdomain(path, grid, faults)
+        else:
+            check_interface(path, grid, faults)
+            interfaces.setdefault(int(number), {})[name] = grid
+    for path in results.glob("midplane/*.vtu"):
+        check_midplane(path, faults)
+    faults.expect(last == len(rows), f"{results}: fields up to increment {last}, history up to {len(rows)}")
+    if faults:
+        return ""
+    whole, part = check_balance(scene, rows, interfaces, faults)
+    return (
+        f"{len(files)} VTU files, {len(rows)} increments; loads and reactions balance to {whole:.1e},"
+        f" subdomains with their interfaces to {part:.1e}"
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("scene", type=Path, help="the scene file, such as geo/compression/scene.json")
+    parser.add_argument("results", type=Path, help="the folder of its results, such as results/compression")
+    arguments = parser.parse_args()
+    faults = Faults()
+    sentence = check(arguments.results, json.loads(arguments.scene.read_text()), faults)
+    for fault in faults:
+        print(f"{arguments.results}: {fault}", file=sys.stderr)
+    if faults:
+        sys.exit(1)
+    print(f"{arguments.results}: {sentence}")
+
+
+if __name__ == "__main__":
+    main()
