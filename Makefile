@@ -1,0 +1,82 @@
+# From the geometries in geo/ to pictures in results/. `make help` lists the targets.
+#
+#   geo/<scene>/*.geo, scene.json ──midplane──► results/<scene>/ ──check_outputs.py──► ──draw.py──► pictures/
+#
+# Another scene file in the same folder, such as geo/cantilever/pointwise.json, is a variant: its results go to
+# results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json are no scenes. Options for
+# the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args.
+
+.SUFFIXES:
+.DEFAULT_GOAL := all
+
+TARGET := $(or $(CARGO_TARGET_DIR),target)
+MIDPLANE := $(TARGET)/release/midplane
+VENV := .venv/ready
+PYTHON := .venv/bin/python
+
+SCENES := $(patsubst geo/%/scene.json,%,$(wildcard geo/*/scene.json))
+# variants $1: names of the results of a scene's other scene files
+variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json,$(wildcard geo/$1/*.json)))
+
+all: $(SCENES)    ## build, solve every scene of the gallery, check the results, draw the pictures
+
+# $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
+define results
+results/$1/.solved: $(filter-out %/draw.args,$(wildcard geo/$2/*)) $(MIDPLANE) | tools
+	$(MIDPLANE) run $3 -o results/$1
+	@touch $$@
+
+results/$1/.checked: results/$1/.solved pipeline/check_outputs.py $(VENV)
+	$(PYTHON) pipeline/check_outputs.py $3 results/$1
+	@touch $$@
+
+results/$1/.drawn: results/$1/.checked $(patsubst %,results/%/.checked,$4) pipeline/draw.py $(wildcard geo/$2/draw.args)
+	$(PYTHON) pipeline/draw.py $3 results/$1 \
+	    $(foreach run,$4,--compare $(run:$2_%=%)=results/$(run)) $(addprefix @,$(wildcard geo/$2/draw.args))
+	@touch $$@
+endef
+
+# $1: scene
+define scene
+.PHONY: $1
+$1: results/$1/.drawn $(patsubst %,results/%/.drawn,$(call variants,$1))
+$(call results,$1,$1,geo/$1/scene.json,$(call variants,$1))
+$(foreach variant,$(call variants,$1),
+$(call results,$(variant),$1,geo/$1/$(variant:$1_%=%).json,))
+endef
+$(foreach name,$(SCENES),$(eval $(call scene,$(name))))
+
+$(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
+	cargo build --release --locked
+
+# without resolving anything: requirements.txt is complete
+$(VENV): pipeline/requirements.txt | tools
+	python3 -m venv --clear .venv
+	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps -r $<
+	.venv/bin/pip check --disable-pip-version-check
+	@touch $@
+
+tools:            ## install what is missing on the system, or say what it is
+	@pipeline/tools.sh
+
+build: $(MIDPLANE)  ## the program only, target/release/midplane
+
+test: | tools     ## all tests, in release, so that dependencies compile once
+	cargo test --release --locked
+
+lint:             ## format and clippy, warnings are errors
+	cargo fmt --check
+	cargo clippy --release --locked --all-targets -- -D warnings
+
+clean:            ## remove everything made here: results, build, Python environment
+	rm -rf results .venv
+	cargo clean
+
+help:             ## this list
+	@echo "make [target]; without one: all"
+	@sed -nE 's/^([a-z]+):[^#]*## /  \1\t/p' Makefile | expand -t 12
+	@for name in $(SCENES); do \
+	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
+	done | expand -t 16
+
+.PHONY: all tools build test lint clean help

@@ -1,0 +1,36 @@
+#!/bin/sh
+# What midplane needs from the system, beside Rust: gmsh, Python with venv, and a library for off-screen rendering.
+# Missing packages are installed if we may (root on Debian), else one line says which.
+set -eu
+
+packages=""
+need() { # package, command that succeeds where it is not needed
+    package=$1
+    shift
+    "$@" >/dev/null 2>&1 || packages="$packages $package"
+}
+finds_library() { /sbin/ldconfig -p | grep -qE "$1"; }
+
+need gcc command -v cc
+need libc6-dev test -e /usr/include/stdio.h
+need gmsh command -v gmsh
+need python3-venv python3 -c 'import ensurepip, venv'
+if [ -x /sbin/ldconfig ]; then
+    need libosmesa6 finds_library 'libOSMesa\.so|libEGL\.so' # pictures only
+fi
+
+if ! command -v cargo >/dev/null; then
+    echo "midplane needs Rust: install it from https://rustup.rs" >&2
+    exit 1
+fi
+[ -n "$packages" ] || exit 0
+
+if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+    echo "installing$packages"
+    apt-get update -q
+    # shellcheck disable=SC2086
+    DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages
+elif [ "$packages" != " libosmesa6" ]; then
+    echo "midplane needs more programs. On Debian: apt-get install$packages" >&2
+    exit 1
+fi
