@@ -59,7 +59,7 @@ def read_twice(path, faults):
     faults.expect(np.array_equal(other.points, grid.points), f"{path}: meshio and VTK read different points")
     corners = np.concatenate([block.data.ravel() for block in other.cells])
     sizes = [block.data.shape[1] for block in other.cells for _ in block.data]
-    same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(sizes, np.diff(grid.offset))
+    same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(sizes, np.diff(grid.cell_offsets))
     faults.expect(same, f"{path}: meshio and VTK read different cells")
     cell_data = {name: np.concatenate(blocks) for name, blocks in other.cell_data.items()}
     for place, ours, theirs in [("point", other.point_data, grid.point_data), ("cell", cell_data, grid.cell_data)]:
