@@ -1,10 +1,11 @@
 //! Linear springs: t = D r + t₀, D = diag(K_N, K_T) (paper eq. 10). No state, no history.
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Inadmissible;
+use super::admissible::{Inadmissible, not_negative};
+use super::{Response, State};
 
 /// Parameters of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,17 +29,20 @@ impl Elastic {
 
     /// Both stiffnesses must be finite and not negative; zero leaves that direction free.
     pub fn check(&self) -> Result<(), Inadmissible> {
-        for (key, value) in
-            [("normal_stiffness", self.normal_stiffness), ("tangential_stiffness", self.tangential_stiffness)]
-        {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(Inadmissible {
-                    key,
-                    what: format!("{key} = {value:e} is not a stiffness"),
-                    cure: "it must be zero or more".into(),
-                });
-            }
+        not_negative("normal_stiffness", self.normal_stiffness)?;
+        not_negative("tangential_stiffness", self.tangential_stiffness)
+    }
+
+    /// The answer in the form all laws share: the old traction is carried, so t₀ needs no place of its own.
+    #[inline]
+    pub(super) fn respond(&self, jump: Vector2<f64>, old: &State) -> Response {
+        let traction = self.traction(jump - old.jump, old.traction);
+        Response {
+            traction,
+            stiffness: Matrix2::new(self.normal_stiffness, 0.0, 0.0, self.tangential_stiffness),
+            state: State { jump, traction, ..*old },
+            dissipation: 0.0,
+            dissipation_gradient: Vector2::zeros(),
         }
-        Ok(())
     }
 }

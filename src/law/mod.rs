@@ -1,19 +1,34 @@
 //! Interface laws: each is a value that maps (jump, old state) to (traction, stiffness, new state, dissipation).
 //!
-//! A law stores nothing: to reject an increment drop the new states, to accept it copy them over the old ones.
+//! A law stores nothing: to reject an increment drop the new states, to accept it copy them over the old ones. The
+//! way from the old jump to the new one is straight; a law whose answer depends on the way divides it (`Stepping`).
 
+mod admissible;
+mod coulomb;
+mod cracking;
 mod elastic;
 
+pub use admissible::Inadmissible;
+pub use coulomb::Coulomb;
+pub use cracking::{Cracking, Strength};
 pub use elastic::Elastic;
 
 use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use admissible::{not_negative, refuse};
+
 /// Index of the normal component of a jump or traction.
 pub const N: usize = 0;
 /// Index of the tangential component of a jump or traction.
 pub const T: usize = 1;
+
+/// Relative tolerance of the laws' integration when the scene names none.
+pub const LAW_TOLERANCE: f64 = 1e-4;
+
+/// Initial tractions may lie outside the surface by rounding, relative to the traction and the cohesion.
+const ON_SURFACE: f64 = 1e-12;
 
 /// The law of an interface, as written in the scene under `law`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -21,12 +36,30 @@ pub const T: usize = 1;
 pub enum Law {
     /// Linear springs (paper eq. 10).
     Elastic(Elastic),
+    /// Contact with Coulomb friction.
+    Coulomb(Coulomb),
+    /// Normal/shear cracking: a hyperbola that shrinks with the work spent on fracture (paper §3.2).
+    Cracking(Cracking),
+}
+
+/// How a law that depends on the way divides the way from the old jump to the new one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stepping {
+    /// Second order with sub-steps chosen so that the traction is within this tolerance, relative to the larger of
+    /// tensile strength and cohesion.
+    Tolerance(f64),
+    /// Plain backward Euler in this many equal steps (0 counts as 1): first order.
+    BackwardEuler(usize),
 }
 
 /// What a law point remembers from one increment to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State {
-    /// Irreversible jump (n, t) [length].
+    /// Jump (n, t) at the last accepted increment [length].
+    pub jump: Vector2<f64>,
+    /// Traction (n, t) at that jump [stress].
+    pub traction: Vector2<f64>,
+    /// Irreversible jump (n, t) [length]: the jump at which the point carries nothing.
     pub jump_plastic: Vector2<f64>,
     /// Work spent on fracture W [stress × length].
     pub fracture_work: f64,
@@ -43,21 +76,27 @@ pub struct Response {
     pub stiffness: Matrix2<f64>,
     /// State at the end of the increment.
     pub state: State,
-    /// Energy dissipated in the increment per area [stress × length].
+    /// Energy dissipated in the increment per area, ∫ t·dr^p, friction included [stress × length].
     pub dissipation: f64,
     /// ∂dissipation/∂jump (n, t) [stress].
     pub dissipation_gradient: Vector2<f64>,
 }
 
-/// Parameters that no law point can follow: the inequality that is broken, with its numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Inadmissible {
-    /// The key to blame.
-    pub key: &'static str,
-    /// The broken inequality with the numbers in it.
-    pub what: String,
-    /// What would have been right.
-    pub cure: String,
+/// Why a law has no answer at this jump.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Unresolved {
+    /// The jump is not a number.
+    #[error("the jump ({}, {}) is not finite", jump.x, jump.y)]
+    NotFinite {
+        /// The jump that was asked for.
+        jump: Vector2<f64>,
+    },
+    /// The traction leaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
+    #[error("the traction leaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
+    SnapBack {
+        /// Where on the way the traction leaps.
+        jump: Vector2<f64>,
+    },
 }
 
 impl Law {
@@ -65,6 +104,16 @@ impl Law {
     pub fn check(&self) -> Result<(), Inadmissible> {
         match self {
             Law::Elastic(law) => law.check(),
+            Law::Coulomb(law) => law.check(),
+            Law::Cracking(law) => law.check(),
+        }
+    }
+
+    /// What is admissible but likely to disappoint, one sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        match self {
+            Law::Elastic(_) | Law::Coulomb(_) => Vec::new(),
+            Law::Cracking(law) => law.warnings(),
         }
     }
 
@@ -72,6 +121,110 @@ impl Law {
     pub fn elastic_stiffness(&self) -> [f64; 2] {
         match self {
             Law::Elastic(law) => [law.normal_stiffness, law.tangential_stiffness],
+            Law::Coulomb(law) => [law.normal_stiffness, law.tangential_stiffness],
+            Law::Cracking(law) => [law.normal_stiffness, law.tangential_stiffness],
+        }
+    }
+
+    /// The state before the first increment: jump 0 under the traction t₀ (n, t) (paper eq. 10), or, for `coulomb`,
+    /// faces that are `initial_gap` apart.
+    pub fn initial_state(
+        &self,
+        initial_traction: Vector2<f64>,
+        initial_gap: f64,
+    ) -> Result<State, Inadmissible> {
+        if !initial_traction.iter().all(|component| component.is_finite()) {
+            return refuse("initial_traction", "initial_traction is not finite", "give two numbers [n, t]");
+        }
+        not_negative("initial_gap", initial_gap)?;
+        let outside = match self {
+            Law::Elastic(_) => f64::NEG_INFINITY,
+            Law::Coulomb(law) => law.excess(initial_traction) - ON_SURFACE * law.cohesion,
+            Law::Cracking(law) => law.excess(initial_traction) - ON_SURFACE * law.cohesion,
+        };
+        if outside > ON_SURFACE * initial_traction.amax() {
+            let (sigma, tau) = (initial_traction.x, initial_traction.y);
+            return refuse(
+                "initial_traction",
+                format!("initial_traction [{sigma}, {tau}] lies outside the strength by {outside:.3e}"),
+                "give a traction that the sound interface can carry",
+            );
+        }
+        if initial_gap > 0.0 && !matches!(self, Law::Coulomb(_)) {
+            return refuse("initial_gap", "initial_gap is for coulomb only", "remove it or use that law");
+        }
+        if initial_gap > 0.0 && initial_traction != Vector2::zeros() {
+            return refuse("initial_gap", "an open gap carries no initial_traction", "give one of the two");
+        }
+        let mut jump_plastic = Vector2::new(-initial_gap, 0.0);
+        for (i, stiffness) in self.elastic_stiffness().into_iter().enumerate() {
+            if stiffness > 0.0 {
+                jump_plastic[i] -= initial_traction[i] / stiffness; // no stiffness: the elastic law carries t₀ alone
+            }
+        }
+        Ok(State { traction: initial_traction, jump_plastic, ..State::default() })
+    }
+
+    /// The state at a given jump, irreversible jump and fracture work; `Err` if the law cannot carry it.
+    pub fn state_at(
+        &self,
+        jump: Vector2<f64>,
+        jump_plastic: Vector2<f64>,
+        fracture_work: f64,
+    ) -> Result<State, Inadmissible> {
+        let [kn, kt] = self.elastic_stiffness();
+        let elastic = jump - jump_plastic;
+        let mut traction = Vector2::new(kn * elastic.x, kt * elastic.y);
+        not_negative("initial", fracture_work)?;
+        let rounding = ON_SURFACE * (traction.amax() + kn * jump.x.abs() + kt * jump.y.abs());
+        let excess = match self {
+            Law::Elastic(_) => f64::NEG_INFINITY,
+            Law::Coulomb(law) => {
+                if elastic.x > 0.0 {
+                    traction = Vector2::zeros();
+                }
+                law.excess(traction)
+            }
+            Law::Cracking(law) => law.excess_at(traction, fracture_work) - ON_SURFACE * law.cohesion,
+        };
+        if !jump.iter().chain(&jump_plastic).all(|component| component.is_finite()) || excess > rounding {
+            return refuse(
+                "initial",
+                format!("the traction [{}, {}] of the initial state is outside", traction.x, traction.y),
+                "give a state that the law can carry",
+            );
+        }
+        Ok(State { jump, traction, jump_plastic, fracture_work, status: 0 })
+    }
+
+    /// Current strength (χ, c, tanφ) at a state; `None` for the elastic law, which has none.
+    pub fn strength(&self, state: &State) -> Option<Strength> {
+        match self {
+            Law::Elastic(_) => None,
+            Law::Coulomb(law) => Some(Strength {
+                tensile_strength: 0.0,
+                cohesion: law.cohesion,
+                tan_friction: law.friction_coefficient,
+            }),
+            Law::Cracking(law) => Some(law.strength(state.fracture_work)),
+        }
+    }
+
+    /// The answer at a jump (n, t), reached in a straight line from the old state. Allocates nothing.
+    #[inline]
+    pub fn respond(
+        &self,
+        jump: Vector2<f64>,
+        old: &State,
+        stepping: Stepping,
+    ) -> Result<Response, Unresolved> {
+        if !(jump.x.is_finite() && jump.y.is_finite()) {
+            return Err(Unresolved::NotFinite { jump });
+        }
+        match self {
+            Law::Elastic(law) => Ok(law.respond(jump, old)),
+            Law::Coulomb(law) => Ok(law.respond(jump, old)),
+            Law::Cracking(law) => law.respond(jump, old, stepping),
         }
     }
 }

@@ -1,0 +1,152 @@
+//! Which parameters the cracking law can follow.
+//!
+//! ```text
+//! b(W) = c − χ tanφ ≥ 0 for all W        else the vertex lies beyond the asymptotes
+//! K_N > χ₀² e^{|α|} / G_I                else pure tension snaps back at a point
+//! K_T well above c₀² e^{|α|} / G_II and χ₀ tanφ₀ c₀ e^{|α|} / G_I      rule of thumb for shear: a warning
+//! ```
+
+use super::super::admissible::{Inadmissible, not_negative, positive, refuse};
+use super::{Cracking, Surface};
+
+/// Shapes beyond this exponent are steps in double precision.
+const LARGEST_EXPONENT: f64 = 50.0;
+/// b(W) may be below zero by rounding, relative to the cohesion.
+const ROUNDING: f64 = 1e-12;
+/// Samples of b(W) per shape, equally spaced in the strength that is left.
+const SAMPLES: usize = 1000;
+/// "Well above" in the rule of thumb for K_T.
+const WELL_ABOVE: f64 = 2.0;
+
+impl Cracking {
+    /// Every inequality the parameters must satisfy; the first broken one is named with its numbers.
+    pub fn check(&self) -> Result<(), Inadmissible> {
+        positive("normal_stiffness", self.normal_stiffness)?;
+        positive("tangential_stiffness", self.tangential_stiffness)?;
+        not_negative("tensile_strength", self.tensile_strength)?;
+        not_negative("cohesion", self.cohesion)?;
+        positive("tan_friction", self.tan_friction)?;
+        not_negative("dilatancy_stress", self.dilatancy_stress)?;
+        for (key, strength, value) in [
+            ("fracture_energy_i", self.tensile_strength, self.fracture_energy_i),
+            ("fracture_energy_iia", self.cohesion, self.fracture_energy_iia),
+        ] {
+            if strength > 0.0 { positive(key, value)? } else { not_negative(key, value)? }
+        }
+        for (key, alpha) in self.exponents() {
+            if alpha.is_nan() || alpha.abs() > LARGEST_EXPONENT {
+                let cure = format!("it must lie between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}");
+                return refuse(key, format!("{key} = {alpha} is not a shape exponent"), cure);
+            }
+        }
+        self.check_residual_friction()?;
+        self.check_vertex()?;
+        self.check_normal_stiffness()
+    }
+
+    /// What is admissible but likely to disappoint: K_T too low for a smooth way past the peak in shear.
+    pub fn warnings(&self) -> Vec<String> {
+        let (chi, c, kt) = (self.tensile_strength, self.cohesion, self.tangential_stiffness);
+        let cohesion_loss = match c > 0.0 {
+            true => c * c * self.alpha_cohesion.abs().exp() / self.fracture_energy_iia,
+            false => 0.0,
+        };
+        let tensile_loss = match chi > 0.0 {
+            true => {
+                chi * self.tan_friction * c * self.alpha_tensile_strength.abs().exp() / self.fracture_energy_i
+            }
+            false => 0.0,
+        };
+        let least = WELL_ABOVE * cohesion_loss.max(tensile_loss);
+        if kt >= least {
+            return Vec::new();
+        }
+        vec![format!(
+            "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
+             chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in \
+             shear; {least:.2e} or more is safer"
+        )]
+    }
+
+    fn exponents(&self) -> [(&'static str, f64); 5] {
+        [
+            ("alpha_tensile_strength", self.alpha_tensile_strength),
+            ("alpha_cohesion", self.alpha_cohesion),
+            ("alpha_tan_friction", self.alpha_tan_friction),
+            ("alpha_dilatancy_stress", self.alpha_dilatancy_stress),
+            ("alpha_dilatancy_cohesion", self.alpha_dilatancy_cohesion),
+        ]
+    }
+
+    fn check_residual_friction(&self) -> Result<(), Inadmissible> {
+        let Some(residual) = self.tan_friction_residual else { return Ok(()) };
+        positive("tan_friction_residual", residual)?;
+        if residual > self.tan_friction {
+            return refuse(
+                "tan_friction_residual",
+                format!("tan_friction_residual = {residual} > tan_friction = {}", self.tan_friction),
+                "friction cannot grow with damage; give at most tan_friction, or leave it out",
+            );
+        }
+        Ok(())
+    }
+
+    /// b(W) ≥ 0, sampled where the strengths change: S(·; −α) is the inverse of S(·; α).
+    fn check_vertex(&self) -> Result<(), Inadmissible> {
+        let (chi, c, t) = (self.tensile_strength, self.cohesion, self.tan_friction);
+        if chi * t > c * (1.0 + ROUNDING) {
+            return refuse(
+                "cohesion",
+                format!("cohesion = {c} < tensile_strength * tan_friction = {chi} * {t} = {}", chi * t),
+                "raise the cohesion or lower the tensile strength: the vertex of the hyperbola lies outside",
+            );
+        }
+        let surface = Surface::new(self);
+        let shapes = [
+            (self.fracture_energy_i, self.alpha_tensile_strength),
+            (self.fracture_energy_iia, self.alpha_cohesion),
+            (self.fracture_energy_iia, self.alpha_tan_friction),
+        ];
+        for (energy, alpha) in shapes {
+            let e = alpha.exp();
+            for sample in 0..=SAMPLES {
+                let x = sample as f64 / SAMPLES as f64;
+                let w = energy * e * x / ((1.0 - x) + e * x);
+                let now = surface.at(w);
+                if now.c - now.chi * now.t < -ROUNDING * c {
+                    return refuse(
+                        "fracture_energy_iia",
+                        format!(
+                            "after the work {w:.3e} is spent, cohesion = {:.4e} < tensile_strength * tan_friction = \
+                             {:.4e} * {:.4e}",
+                            now.c, now.chi, now.t
+                        ),
+                        "the cohesion is lost before the tensile strength; raise fracture_energy_iia above \
+                         fracture_energy_i, or match the shape exponents",
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn check_normal_stiffness(&self) -> Result<(), Inadmissible> {
+        let chi = self.tensile_strength;
+        if chi == 0.0 {
+            return Ok(());
+        }
+        let least = chi * chi * self.alpha_tensile_strength.abs().exp() / self.fracture_energy_i;
+        if self.normal_stiffness > least {
+            return Ok(());
+        }
+        refuse(
+            "normal_stiffness",
+            format!(
+                "normal_stiffness = {:e} <= tensile_strength^2 e^|alpha| / fracture_energy_i = {least:e}: pure \
+                 tension snaps back at a point",
+                self.normal_stiffness
+            ),
+            format!("give more than {least:e}, or raise fracture_energy_i"),
+        )
+    }
+}

@@ -1,0 +1,102 @@
+//! Normal/shear cracking of an interface (paper §3.2, figure 3): elasticity with a cracking surface that shrinks.
+//!
+//! ```text
+//! t = K (r − r^p),  K = diag(K_N, K_T)                                     elastic, never degrades
+//! F = √(τ² + b²) − (c − σ tanφ) ≤ 0,  b = c − χ tanφ                       hyperbola, vertex (χ, 0)
+//! χ = χ₀ (1 − S(W/G_I)),  c = c₀ (1 − S(W/G_II)),  tanφ = t₀ − (t₀ − t_r) S(W/G_II)
+//! ṙ^p = λ̇ (f tanφ, τ/s),  s = √(τ² + b²)                                  f: dilatancy
+//! Ẇ = σ ṙ_n^p + τ ṙ_t^p  (σ ≥ 0),  (|τ| + σ tanφ) |ṙ_t^p|  (σ < 0)        work without friction
+//! ```
+//!
+//! f = 1 in tension, f_σ(σ) f_c(c) in compression and any value between at σ = 0, where a point that opens and slides
+//! stays for a while. The paper gives the surface, its three parameters, the one history variable and the two limit
+//! modes; the shapes S, the factors of f and the work follow the literature it cites.
+
+mod check;
+mod surface;
+
+pub use surface::Strength;
+
+use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Response, State, Stepping, Unresolved};
+use surface::Surface;
+
+/// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cracking {
+    /// Normal elastic (penalty) stiffness K_N [stress / length], above χ₀² e^|α| / G_I.
+    pub normal_stiffness: f64,
+    /// Tangential elastic (penalty) stiffness K_T [stress / length].
+    pub tangential_stiffness: f64,
+    /// Tensile strength of the sound interface χ₀ [stress].
+    pub tensile_strength: f64,
+    /// Apparent cohesion of the sound interface c₀ [stress], at least χ₀ tanφ₀.
+    pub cohesion: f64,
+    /// Tangent of the friction angle of the sound interface tanφ₀ [-].
+    pub tan_friction: f64,
+    /// Tangent of the residual friction angle tanφ_r [-]. Default: no loss.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tan_friction_residual: Option<f64>,
+    /// Fracture energy in mode I, G_I [stress × length].
+    pub fracture_energy_i: f64,
+    /// Fracture energy in mode IIa (shear under very high compression), G_II [stress × length].
+    pub fracture_energy_iia: f64,
+    /// Compression σ_dil at which dilatancy vanishes [stress]; 0 is no dilatancy under any compression.
+    pub dilatancy_stress: f64,
+    /// Shape exponent of the loss of tensile strength [-]. Default 0.
+    #[serde(default)]
+    pub alpha_tensile_strength: f64,
+    /// Shape exponent of the loss of cohesion [-]. Default 0.
+    #[serde(default)]
+    pub alpha_cohesion: f64,
+    /// Shape exponent of the loss of friction [-]. Default 0.
+    #[serde(default)]
+    pub alpha_tan_friction: f64,
+    /// Shape exponent of the loss of dilatancy with compression [-]. Default 0.
+    #[serde(default)]
+    pub alpha_dilatancy_stress: f64,
+    /// Shape exponent of the loss of dilatancy with cohesion [-]. Default 0.
+    #[serde(default)]
+    pub alpha_dilatancy_cohesion: f64,
+}
+
+impl Cracking {
+    /// Strength (χ, c, tanφ) once the work W has been spent.
+    pub fn strength(&self, fracture_work: f64) -> Strength {
+        let now = Surface::new(self).at(fracture_work);
+        Strength { tensile_strength: now.chi, cohesion: now.c, tan_friction: now.t }
+    }
+
+    /// The hyperbola F of the sound interface at a traction (n, t) [stress]; positive is outside.
+    pub fn excess(&self, traction: Vector2<f64>) -> f64 {
+        self.excess_at(traction, 0.0)
+    }
+
+    /// The hyperbola F at a traction (n, t) once the work W has been spent [stress].
+    pub fn excess_at(&self, traction: Vector2<f64>, fracture_work: f64) -> f64 {
+        Surface::new(self).at(fracture_work).hyperbola(traction.x, traction.y)
+    }
+
+    /// The answer at a jump, reached in a straight line from the old state.
+    pub(super) fn respond(
+        &self,
+        jump: Vector2<f64>,
+        old: &State,
+        _stepping: Stepping,
+    ) -> Result<Response, Unresolved> {
+        let (kn, kt) = (self.normal_stiffness, self.tangential_stiffness);
+        let step = jump - old.jump;
+        let traction = old.traction + Vector2::new(kn * step.x, kt * step.y);
+        Ok(Response {
+            traction,
+            stiffness: nalgebra::Matrix2::new(kn, 0.0, 0.0, kt),
+            state: State { jump, traction, status: 0, ..*old },
+            dissipation: 0.0,
+            dissipation_gradient: Vector2::zeros(),
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! The hyperbola and how it shrinks (paper §3.2, figure 3a).
+//!
+//! ```text
+//! F(σ, τ; W) = s − (c − σ t) ≤ 0,  s = √(τ² + b²),  b = c − χ t,  t = tanφ
+//! S(ξ; α) = e^{−α} ξ / (1 + (e^{−α} − 1) ξ),  0 ≤ ξ ≤ 1;  0 below, 1 above
+//!
+//!        |τ|                .    asymptote |τ| = c − σ t
+//!          . .           .
+//!             .  .    .  hyperbola
+//!                .  c
+//!                  . |
+//!   ─────────────────┼──χ──── σ
+//! ```
+//!
+//! The root form of F has one branch only; the squared form has a second one that means nothing.
+
+use super::Cracking;
+
+/// Strength of an interface at some stage of cracking.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strength {
+    /// Tensile strength χ [stress].
+    pub tensile_strength: f64,
+    /// Cohesion c [stress].
+    pub cohesion: f64,
+    /// Tangent of the friction angle [-].
+    pub tan_friction: f64,
+}
+
+/// The law's parameters made ready: exponentials and inverses are taken once per answer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surface {
+    pub kn: f64,
+    pub kt: f64,
+    pub chi0: f64,
+    pub c0: f64,
+    pub t_residual: f64,
+    pub t_loss: f64,
+    pub per_gf_i: f64,   // 1/G_I, 0 if there is no tensile strength to lose
+    pub per_gf_iia: f64, // 1/G_II, 0 if there is no cohesion to lose
+    pub sigma_dil: f64,
+    e_chi: f64,
+    e_c: f64,
+    e_t: f64,
+    e_dil: f64,
+    e_dil_c: f64,
+}
+
+/// The hyperbola at one W, with derivatives by W (`d…`).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hyperbola {
+    pub chi: f64,
+    pub c: f64,
+    pub t: f64,
+    pub b: f64,
+    pub dc: f64,
+    pub dt: f64,
+    pub db: f64,
+    pub fc: f64,
+    pub dfc: f64,
+}
+
+/// 1 − S(ξ) and S'(ξ), with e = e^{−α}.
+fn shape(xi: f64, e: f64) -> (f64, f64) {
+    if xi >= 1.0 {
+        return (0.0, 0.0);
+    }
+    let xi = xi.max(0.0);
+    let d = (1.0 - xi) + e * xi;
+    ((1.0 - xi) / d, e / (d * d))
+}
+
+/// e^{−α}, free of charge for the usual α = 0.
+fn decay(alpha: f64) -> f64 {
+    if alpha == 0.0 { 1.0 } else { (-alpha).exp() }
+}
+
+impl Surface {
+    pub fn new(law: &Cracking) -> Surface {
+        let t_residual = law.tan_friction_residual.unwrap_or(law.tan_friction);
+        let inverse = |strength: f64, energy: f64| if strength > 0.0 { 1.0 / energy } else { 0.0 };
+        Surface {
+            kn: law.normal_stiffness,
+            kt: law.tangential_stiffness,
+            chi0: law.tensile_strength,
+            c0: law.cohesion,
+            t_residual,
+            t_loss: law.tan_friction - t_residual,
+            per_gf_i: inverse(law.tensile_strength, law.fracture_energy_i),
+            per_gf_iia: inverse(law.cohesion, law.fracture_energy_iia),
+            sigma_dil: law.dilatancy_stress,
+            e_chi: decay(law.alpha_tensile_strength),
+            e_c: decay(law.alpha_cohesion),
+            e_t: decay(law.alpha_tan_friction),
+            e_dil: decay(law.alpha_dilatancy_stress),
+            e_dil_c: decay(law.alpha_dilatancy_cohesion),
+        }
+    }
+
+    /// The hyperbola once the work W has been spent.
+    pub fn at(&self, w: f64) -> Hyperbola {
+        let (left, slope) = shape(w * self.per_gf_i, self.e_chi);
+        let (chi, dchi) = (self.chi0 * left, -self.chi0 * slope * self.per_gf_i);
+        let xi = w * self.per_gf_iia;
+        let (left_c, slope) = shape(xi, self.e_c);
+        let (c, dc) = (self.c0 * left_c, -self.c0 * slope * self.per_gf_iia);
+        let (t, dt) = if self.t_loss > 0.0 {
+            let (left, slope) = shape(xi, self.e_t);
+            (self.t_residual + self.t_loss * left, -self.t_loss * slope * self.per_gf_iia)
+        } else {
+            (self.t_residual, 0.0)
+        };
+        let (fc, dfc) = if self.sigma_dil > 0.0 && c > 0.0 {
+            let (left, slope) = shape(1.0 - left_c, self.e_dil_c);
+            (left, slope * dc / self.c0)
+        } else {
+            (0.0, 0.0)
+        };
+        let b = (c - chi * t).max(0.0);
+        Hyperbola { chi, c, t, b, dc, dt, db: dc - dchi * t - chi * dt, fc, dfc }
+    }
+
+    /// Dilatancy factor f_σ and its derivative by σ, for σ < 0. No quotient is formed for σ_dil = 0.
+    pub fn dilatancy(&self, sigma: f64) -> (f64, f64) {
+        if -sigma >= self.sigma_dil {
+            return (0.0, 0.0);
+        }
+        let (left, slope) = shape(-sigma / self.sigma_dil, self.e_dil);
+        (left, slope / self.sigma_dil)
+    }
+
+    /// The larger of tensile strength and cohesion: what tolerances are relative to [stress].
+    pub fn scale(&self) -> f64 {
+        self.chi0.max(self.c0)
+    }
+}
+
+impl Hyperbola {
+    /// F(σ, τ): positive outside [stress].
+    pub fn hyperbola(&self, sigma: f64, tau: f64) -> f64 {
+        tau.hypot(self.b) - (self.c - sigma * self.t)
+    }
+
+    /// σ on the hyperbola at τ, free of cancellation near the vertex.
+    pub fn sigma(&self, tau: f64, s: f64) -> f64 {
+        let reach = self.chi * self.t;
+        (reach * (2.0 * self.c - reach) - tau * tau) / (self.t * (self.c + s))
+    }
+
+    /// τ ≥ 0 on the hyperbola at σ ≤ χ, free of cancellation near the vertex.
+    pub fn tau(&self, sigma: f64) -> f64 {
+        (self.t * (self.chi - sigma) * (2.0 * self.c - self.t * (self.chi + sigma))).max(0.0).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shape_starts_at_zero_ends_at_one_and_its_slope_is_the_difference_quotient() {
+        for alpha in [-3.0, -0.5, 0.0, 0.7, 4.0_f64] {
+            let e = decay(alpha);
+            assert_eq!((shape(0.0, e).0, shape(1.0, e).0), (1.0, 0.0));
+            assert!((shape(0.0, e).1 - (-alpha).exp()).abs() < 1e-12);
+            for xi in [0.1, 0.5, 0.9] {
+                let s = e * xi / (1.0 + (e - 1.0) * xi);
+                let (left, slope) = shape(xi, e);
+                assert!((1.0 - s - left).abs() < 1e-14);
+                let quotient = (shape(xi - 1e-6, e).0 - shape(xi + 1e-6, e).0) / 2e-6;
+                assert!((slope - quotient).abs() < 1e-8 * slope.max(1.0));
+            }
+        }
+    }
+}
