@@ -4,9 +4,22 @@
 //! positive Jacobian at its corners and counts its nodes counter-clockwise, every edge of a curve group knows the cell
 //! it bounds and runs with that cell on its left.
 
+mod cache;
+mod cells;
+mod edges;
+mod gmsh;
+mod groups;
+mod msh;
+mod read;
+mod sources;
+
 use std::path::PathBuf;
 
 use indexmap::IndexMap;
+
+pub use cache::{Job, Meshed, mesh_all};
+pub use gmsh::Gmsh;
+pub use read::{from_bytes, read};
 
 use crate::shape::Shape;
 

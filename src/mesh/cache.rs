@@ -1,0 +1,96 @@
+//! Meshes on demand: one gmsh run per subdomain, side by side, and none for what has not changed.
+//!
+//! A mesh is kept as `<subdomain>-<12 hex digits>.msh`. The digits are the SHA-256 of all that decides it: the .geo
+//! and what it includes, the parameters, the options and the version of gmsh. A file appears there only whole and
+//! checked, so that its name alone tells that it is good.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use super::gmsh::{Gmsh, options};
+use super::read::from_bytes;
+use super::sources::Sources;
+use crate::error::{Error, Result};
+
+/// A subdomain to be meshed.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// Its name, the first part of the file name.
+    pub subdomain: String,
+    /// The .geo file.
+    pub geo: PathBuf,
+    /// Values for names that the .geo declares with DefineConstant.
+    pub parameters: Vec<(String, f64)>,
+}
+
+/// A mesh on disk.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Meshed {
+    /// The .msh file.
+    pub path: PathBuf,
+    /// True if it was there already.
+    pub reused: bool,
+}
+
+/// Meshes all jobs into the folder `cache`, in parallel, in the order of the jobs. Of several errors the first counts.
+pub fn mesh_all(gmsh: &Gmsh, cache: &Path, jobs: &[Job]) -> Result<Vec<Meshed>> {
+    let all: Vec<Result<Meshed>> = jobs.par_iter().map(|job| mesh_one(gmsh, cache, job)).collect();
+    all.into_iter().collect()
+}
+
+fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
+    let geo = std::path::absolute(&job.geo).map_err(Error::io("read", &job.geo))?;
+    let sources = Sources::read(&geo)?;
+    for (name, value) in &job.parameters {
+        sources.accepts(&job.geo, name)?;
+        if !value.is_finite() {
+            return Err(Error::mesh(
+                &job.geo,
+                format!("cannot take {name} = {value}"),
+                "a parameter is a finite number",
+            ));
+        }
+    }
+    let key = key(&sources, job, gmsh.version()?);
+    let path = cache.join(format!("{}-{key}.msh", file_name(&job.subdomain)));
+    if sources.closed && path.is_file() {
+        return Ok(Meshed { path, reused: true });
+    }
+    std::fs::create_dir_all(cache).map_err(Error::io("create", cache))?;
+    let cache = std::path::absolute(cache).map_err(Error::io("create", cache))?;
+    let folder = tempfile::Builder::new()
+        .prefix(".gmsh-")
+        .tempdir_in(&cache)
+        .map_err(Error::io("write to", &cache))?;
+    let written = gmsh.mesh(&geo, &job.parameters, folder.path())?;
+    let bytes = std::fs::read(&written).map_err(Error::io("read", &written))?;
+    from_bytes(&job.geo, &bytes)?;
+    std::fs::File::open(&written).and_then(|file| file.sync_all()).map_err(Error::io("write", &written))?;
+    std::fs::rename(&written, &path).map_err(Error::io("write", &path))?;
+    Ok(Meshed { path, reused: false })
+}
+
+/// 12 hex digits that change with whatever changes the mesh.
+fn key(sources: &Sources, job: &Job, version: &str) -> String {
+    let mut hash = Sha256::new();
+    let mut add = |part: &[u8]| {
+        hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other
+        hash.update(part);
+    };
+    add(version.as_bytes());
+    for option in options(&job.parameters) {
+        add(option.as_encoded_bytes());
+    }
+    for (path, content) in &sources.files {
+        add(path.file_name().unwrap_or_default().as_encoded_bytes());
+        add(content.as_deref().unwrap_or(b"missing"));
+    }
+    hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// The name of a subdomain without what a file name cannot hold.
+fn file_name(subdomain: &str) -> String {
+    subdomain.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
+}

@@ -1,0 +1,161 @@
+//! MSH 4.1: from the bytes of a file to nodes, elements and declared groups, before any question of geometry.
+//!
+//! The walk reads the heads of sections and blocks and all tags itself, checks every count against the bytes that
+//! are there, and has mshio decode the rest in pieces (`pieces`). Nothing is allocated for a count that the file
+//! merely claims.
+
+mod cursor;
+mod element;
+mod elements;
+mod entities;
+mod names;
+mod nodes;
+mod pieces;
+mod tags;
+
+use crate::shape::Shape;
+use cursor::{Cursor, Encoding};
+use entities::Entities;
+pub(super) use entities::KINDS;
+pub(super) use names::Declared;
+use pieces::Decoder;
+use tags::Tags;
+
+/// What is wrong with a file and what would have been right; the caller knows its name.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) what: String,
+    pub(super) cure: String,
+}
+
+/// A file that gmsh did not write like this.
+pub(super) fn damaged(what: impl Into<String>) -> Fault {
+    Fault { what: what.into(), cure: "the file is damaged: write it again (gmsh -format msh41)".into() }
+}
+
+/// The content of a file. Elements refer to nodes by number.
+#[derive(Debug, Default)]
+pub(super) struct Content {
+    /// Tags of the nodes, for messages.
+    pub(super) node_tags: Vec<u64>,
+    /// Their coordinates.
+    pub(super) points: Vec<[f64; 2]>,
+    /// Largest |z| and the node that has it.
+    pub(super) off_plane: (f64, u64),
+    /// Physical points: node.
+    pub(super) vertices: Vec<u32>,
+    /// Elements of curves: start, end and mid-node, `u32::MAX` without one.
+    pub(super) edges: Vec<[u32; 3]>,
+    /// Shapes of the cells.
+    pub(super) shapes: Vec<Shape>,
+    /// Nodes of the cells, one after the other.
+    pub(super) cell_nodes: Vec<u32>,
+    /// Tags of vertices, edges and cells, for messages.
+    pub(super) tags: [Vec<u64>; 3],
+    /// Runs of elements that belong to the same groups.
+    pub(super) blocks: Vec<Block>,
+    /// All groups, named ones first.
+    pub(super) declared: Vec<Declared>,
+}
+
+/// Consecutive vertices, edges or cells (by `dim`) of one entity.
+#[derive(Debug)]
+pub(super) struct Block {
+    pub(super) dim: usize,
+    pub(super) members: std::ops::Range<usize>,
+    pub(super) groups: Vec<u32>,
+}
+
+/// Reads the content of an MSH 4.1 file.
+pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
+    let (mut cursor, encoding) = header(bytes)?;
+    let mut decoder = Decoder::new(encoding);
+    let mut entities = Entities::default();
+    let mut numbers: Option<Tags> = None;
+    let mut content = Content::default();
+    let mut seen: Vec<&[u8]> = Vec::new();
+    cursor.skip_space();
+    while cursor.left() > 0 {
+        let name = cursor
+            .section()
+            .ok_or_else(|| damaged("expected a section such as $Nodes, found something else"))?;
+        let title = String::from_utf8_lossy(name);
+        let known: [&[u8]; 4] = [b"PhysicalNames", b"Entities", b"Nodes", b"Elements"];
+        if known.contains(&name) && seen.contains(&name) {
+            return Err(damaged(format!("has ${title} twice")));
+        }
+        match name {
+            b"Nodes" => numbers = Some(nodes::read(&mut cursor, &mut decoder, &mut content)?),
+            b"Elements" => {
+                let numbers = numbers.take().ok_or_else(|| damaged("has no $Nodes before $Elements"))?;
+                elements::read(&mut cursor, &mut decoder, &entities, &numbers, &mut content)?;
+            }
+            b"PartitionedEntities" => {
+                return Err(Fault {
+                    what: "is partitioned".into(),
+                    cure: "save it without partitions".into(),
+                });
+            }
+            _ => {}
+        }
+        let body = if matches!(name, b"Nodes" | b"Elements") {
+            cursor.at_end(name).then_some(&[][..])
+        } else {
+            cursor.until_end(name)
+        };
+        let body =
+            body.ok_or_else(|| damaged(format!("has ${title} without $End{title} where it should be")))?;
+        match name {
+            b"PhysicalNames" => content.declared = names::read(body)?,
+            b"Entities" => {
+                let parsed = decoder.entities(body).ok_or_else(|| damaged("$Entities cannot be read"))?;
+                entities = Entities::new(parsed)?;
+            }
+            _ => {}
+        }
+        if known.contains(&name) {
+            seen.push(name);
+        }
+        cursor.skip_space();
+    }
+    if content.shapes.is_empty() {
+        return Err(Fault {
+            what: "has no triangles or quadrilaterals".into(),
+            cure: "give the .geo a Physical Surface that covers the body".into(),
+        });
+    }
+    entities.declare(&mut content.declared);
+    Ok(content)
+}
+
+/// Checks the first lines; the position is then behind them.
+fn header(bytes: &[u8]) -> Result<(Cursor<'_>, Encoding), Fault> {
+    let cure = "write MSH 4.1 (gmsh -format msh41)";
+    let refuse = |what: &str| Fault { what: what.into(), cure: cure.into() };
+    let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| refuse("is not an MSH file"))?;
+    let mut lines = rest.splitn(3, |&b| b == b'\n').skip(1);
+    let line = lines.next().and_then(|line| std::str::from_utf8(line).ok()).unwrap_or("");
+    let body = lines.next().ok_or_else(|| damaged("ends in its first lines"))?;
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let &[version, mode, width] = words.as_slice() else {
+        return Err(damaged(format!("\"{}\" is not an MSH format", line.trim())));
+    };
+    if version != "4.1" {
+        return Err(refuse(&format!("is MSH {version}")));
+    }
+    if width != "8" {
+        return Err(refuse(&format!("has counts of {width} bytes instead of 8")));
+    }
+    let encoding = match (mode, body.first_chunk::<4>()) {
+        ("0", _) => Encoding::Text,
+        ("1", Some(&one)) if i32::from_le_bytes(one) == 1 => Encoding::Little,
+        ("1", Some(&one)) if i32::from_be_bytes(one) == 1 => Encoding::Big,
+        _ => return Err(damaged("is neither text nor binary")),
+    };
+    let skipped = bytes.len() - body.len() + if encoding == Encoding::Text { 0 } else { 4 };
+    let mut cursor = Cursor::new(bytes, skipped, encoding);
+    if !cursor.at_end(b"MeshFormat") {
+        return Err(damaged("has $MeshFormat without $EndMeshFormat"));
+    }
+    Ok((cursor, encoding))
+}

@@ -1,0 +1,241 @@
+//! What a .geo file consists of: the files it includes, the names it mentions, the parameters it declares.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Error, Result, name_cure};
+
+/// A .geo file with everything it reads.
+#[derive(Debug, Default)]
+pub(super) struct Sources {
+    /// Path and content of the file itself and of every file it includes, in the order they are met.
+    pub(super) files: Vec<(PathBuf, Option<Vec<u8>>)>,
+    /// False if what gmsh makes of it depends on more than these files.
+    pub(super) closed: bool,
+    /// Every name in it.
+    mentioned: Vec<String>,
+    /// Names it declares with DefineConstant.
+    declared: Vec<String>,
+    /// Names it assigns a value.
+    assigned: Vec<String>,
+}
+
+/// Commands and options whose value is the name of a file.
+const READING: [&str; 4] = ["Include", "Merge", "ShapeFromFile", "FileName"];
+/// Commands whose result does not come from the files alone.
+const OUTSIDE: [&str; 8] = [
+    "System",
+    "SystemCall",
+    "NonBlockingSystemCall",
+    "OnelabRun",
+    "GetEnv",
+    "FileExists",
+    "Rand",
+    "CurrentDirectory",
+];
+
+impl Sources {
+    /// Reads a .geo file and, nested, all it includes. `geo` is absolute.
+    pub(super) fn read(geo: &Path) -> Result<Sources> {
+        let content = std::fs::read(geo).map_err(Error::io("read", geo))?;
+        let mut sources = Sources { closed: true, ..Sources::default() };
+        sources.add(geo.to_path_buf(), Some(content));
+        let mut next = 0;
+        while let Some((path, content)) = sources.files.get(next) {
+            let (path, tokens) = (path.clone(), tokens(content.as_deref().unwrap_or(&[])));
+            sources.scan(&path, &tokens);
+            next += 1;
+        }
+        Ok(sources)
+    }
+
+    /// Refuses a parameter that this .geo would not listen to.
+    pub(super) fn accepts(&self, geo: &Path, parameter: &str) -> Result<()> {
+        let has = |names: &[String]| names.iter().any(|name| name == parameter);
+        let declared = || name_cure(parameter, self.declared.iter().map(String::as_str));
+        let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        if parameter.is_empty() || !parameter.chars().all(word) || !has(&self.mentioned) {
+            return Err(Error::mesh(
+                geo,
+                format!("has no parameter \"{parameter}\""),
+                format!("of the names it declares with DefineConstant {}", declared()),
+            ));
+        }
+        if has(&self.assigned) && !has(&self.declared) && !self.mentions("Exists")
+        {
+            return Err(Error::mesh(
+                geo,
+                format!("sets \"{parameter}\" itself, whatever value it is given"),
+                format!("declare it instead: DefineConstant[ {parameter} = ... ]"),
+            ));
+        }
+        Ok(())
+    }
+
+    fn mentions(&self, name: &str) -> bool {
+        self.mentioned.iter().any(|mentioned| mentioned == name)
+    }
+
+    fn add(&mut self, path: PathBuf, content: Option<Vec<u8>>) {
+        if !self.files.iter().any(|(known, _)| *known == path) {
+            self.files.push((path, content));
+        }
+    }
+
+    fn scan(&mut self, path: &Path, tokens: &[Token]) {
+        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        // gmsh merges the options beside a model without being asked
+        let mut options = path.as_os_str().to_owned();
+        options.push(".opt");
+        if let Ok(content) = std::fs::read(&options) {
+            self.add(options.into(), Some(content));
+        }
+        for (i, token) in tokens.iter().enumerate() {
+            let Token::Name(name) = token else { continue };
+            if READING.contains(&name.as_str()) {
+                match file_argument(&tokens[i + 1..]) {
+                    Some(file) => {
+                        let file = folder.join(file);
+                        let content = std::fs::read(&file).ok();
+                        self.add(file, content);
+                    }
+                    None => self.closed = false,
+                }
+            }
+            self.closed &= !OUTSIDE.contains(&name.as_str());
+            if name == "DefineConstant" {
+                self.declared.extend(declared(&tokens[i + 1..]));
+            }
+            if tokens.get(i + 1) == Some(&Token::Sign('=')) && tokens.get(i + 2) != Some(&Token::Sign('=')) {
+                let after_dot = i > 0 && tokens[i - 1] == Token::Sign('.');
+                if !after_dot {
+                    self.assigned.push(name.clone());
+                }
+            }
+            self.mentioned.push(name.clone());
+        }
+        for names in [&mut self.mentioned, &mut self.declared, &mut self.assigned] {
+            let mut seen = std::collections::HashSet::new();
+            names.retain(|name| seen.insert(name.clone()));
+        }
+    }
+}
+
+/// The literal file name that follows a reading command: `"file" ;`, `= "file" ;`, `( "file" )`.
+fn file_argument(tokens: &[Token]) -> Option<&str> {
+    let tokens = match tokens {
+        [Token::Sign('=' | '(' | '['), rest @ ..] => rest,
+        all => all,
+    };
+    match tokens {
+        [Token::Text(file), Token::Sign(';' | ')' | ']'), ..] => Some(file),
+        _ => None,
+    }
+}
+
+/// Names declared by `[ a = 1, b = {2, Name "B"}, c ]`.
+fn declared(tokens: &[Token]) -> Vec<String> {
+    let mut names = Vec::new();
+    let (mut depth, mut fresh) = (0, false);
+    for token in tokens {
+        match token {
+            Token::Sign('[' | '{' | '(') => {
+                depth += 1;
+                fresh = depth == 1;
+            }
+            Token::Sign(']' | '}' | ')') => {
+                depth -= 1;
+                if depth <= 0 {
+                    break;
+                }
+            }
+            Token::Sign(',') => fresh = depth == 1,
+            Token::Sign(';') if depth == 0 => break,
+            Token::Name(name) if fresh => {
+                names.push(name.clone());
+                fresh = false;
+            }
+            _ => fresh = false,
+        }
+    }
+    names
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Token {
+    Name(String),
+    Text(String),
+    Sign(char),
+}
+
+/// Names, strings and signs, without comments and numbers. Bytes that are not UTF-8 stand for themselves as signs.
+fn tokens(content: &[u8]) -> Vec<Token> {
+    let text = String::from_utf8_lossy(content);
+    let mut tokens = Vec::new();
+    let mut rest: &str = &text;
+    while let Some(c) = rest.chars().next() {
+        let length = if rest.starts_with("//") {
+            rest.find('\n').unwrap_or(rest.len())
+        } else if let Some(comment) = rest.strip_prefix("/*") {
+            comment.find("*/").map_or(rest.len(), |end| end + 4)
+        } else if c == '"' || c == '\'' {
+            let end = rest[1..].find(c).map_or(rest.len(), |end| end + 1);
+            tokens.push(Token::Text(rest[1..end].to_string()));
+            (end + 1).min(rest.len())
+        } else if c.is_ascii_alphabetic() || c == '_' {
+            let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+            tokens.push(Token::Name(rest[..end].to_string()));
+            end
+        } else if c.is_ascii_digit() {
+            // 1e-3 holds no name
+            rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).unwrap_or(rest.len())
+        } else {
+            if !c.is_whitespace() {
+                tokens.push(Token::Sign(c));
+            }
+            c.len_utf8()
+        };
+        rest = &rest[length..];
+    }
+    tokens
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Sources {
+        let folder = tempfile::tempdir().unwrap();
+        let geo = folder.path().join("a.geo");
+        std::fs::write(&geo, text).unwrap();
+        Sources::read(&geo).unwrap()
+    }
+
+    #[test]
+    fn declared_constants_are_found_among_their_options() {
+        let geo = of(
+            "DefineConstant[ n = {4, Name \"Param/n\", Choices{1, 2}}, length = 2*n, open ]; Point(1) = {0, 0, 0, lc};",
+        );
+        assert_eq!(geo.declared, ["n", "length", "open"]);
+        assert!(geo.accepts(Path::new("a.geo"), "n").is_ok());
+        assert!(geo.accepts(Path::new("a.geo"), "lc").is_ok());
+        let message = geo.accepts(Path::new("a.geo"), "lenght").unwrap_err().to_string();
+        assert!(message.contains("Did you mean \"length\"?"), "{message}");
+    }
+
+    #[test]
+    fn a_value_the_file_sets_itself_is_no_parameter() {
+        assert!(of("n = 4; Point(n) = {0, 0, 0};").accepts(Path::new("a.geo"), "n").is_err());
+        assert!(of("If (!Exists(n)) n = 4; EndIf").accepts(Path::new("a.geo"), "n").is_ok());
+        assert!(of("// n\n/* n */ Printf(\"n\");").accepts(Path::new("a.geo"), "n").is_err());
+        assert!(of("If (n == 1) EndIf").accepts(Path::new("a.geo"), "n").is_ok());
+    }
+
+    #[test]
+    fn what_is_computed_or_comes_from_outside_is_not_closed() {
+        assert!(of("Merge \"b.step\"; Field[1].FileName = \"f.pos\";").closed);
+        assert!(!of("Include StrCat(\"a\", \"b\");").closed);
+        assert!(!of("SystemCall \"date\";").closed);
+        assert!(of("// SystemCall \"date\";").closed);
+        assert!(of("Point(1) = {\"").closed);
+    }
+}
