@@ -17,12 +17,16 @@
 //! `error`, `shape`, `law`, `mesh`, `scene`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
 //! `run`, `cli`.
 
+pub mod assembly;
+pub mod cli;
+pub mod continuum;
+pub mod coupling;
 pub mod error;
 pub mod law;
 pub mod mesh;
+pub mod output;
+pub mod problem;
+pub mod run;
 pub mod scene;
 pub mod shape;
-pub mod coupling;
-pub mod continuum;
-pub mod assembly;
 pub mod solver;

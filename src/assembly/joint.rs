@@ -19,7 +19,14 @@ pub struct Joint {
 
 impl Joint {
     /// Puts a coupling on the dofs of a model whose bodies start at the nodes `first`.
-    pub fn new(name: &str, coupling: Coupling, bodies: [usize; 2], first: [usize; 2], dofs: usize, thickness: f64) -> Joint {
+    pub fn new(
+        name: &str,
+        coupling: Coupling,
+        bodies: [usize; 2],
+        first: [usize; 2],
+        dofs: usize,
+        thickness: f64,
+    ) -> Joint {
         let c = coupling.components;
         let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
         let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);

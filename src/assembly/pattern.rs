@@ -68,12 +68,15 @@ impl Pattern {
         let mut offsets = Vec::with_capacity(components * nodes + 1);
         offsets.push(0);
         let blocks = neighbours.len();
-        let mut rows = Vec::with_capacity(components * components * blocks - nodes * components * (components - 1) / 2);
+        let mut rows =
+            Vec::with_capacity(components * components * blocks - nodes * components * (components - 1) / 2);
         for node in 0..nodes {
             let others = &neighbours[node_offsets[node]..node_offsets[node + 1]];
             for c in 0..components {
                 rows.extend(components * node + c..components * (node + 1));
-                rows.extend(others[1..].iter().flat_map(|&o| components * o as usize..components * (o as usize + 1)));
+                rows.extend(
+                    others[1..].iter().flat_map(|&o| components * o as usize..components * (o as usize + 1)),
+                );
                 offsets.push(rows.len());
             }
         }
@@ -113,7 +116,9 @@ mod tests {
             for b in 0..2 {
                 for a in if i == j { b } else { 0 }..2 {
                     assert_eq!(pattern.rows[at[b] + a], 2 * i + a, "block {i} {j}");
-                    assert!((pattern.offsets[2 * j + b]..pattern.offsets[2 * j + b + 1]).contains(&(at[b] + a)));
+                    assert!(
+                        (pattern.offsets[2 * j + b]..pattern.offsets[2 * j + b + 1]).contains(&(at[b] + a))
+                    );
                 }
             }
         }

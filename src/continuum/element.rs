@@ -22,7 +22,11 @@ pub fn cell_coordinates(mesh: &Mesh, c: usize) -> [[f64; 2]; MAX_NODES] {
 }
 
 /// Derivatives ∂N/∂x, ∂N/∂y at a reference point and the Jacobian's determinant there.
-pub(super) fn gradients(shape: Shape, x: &[[f64; 2]; MAX_NODES], values: &Values) -> ([[f64; 2]; MAX_NODES], f64) {
+pub(super) fn gradients(
+    shape: Shape,
+    x: &[[f64; 2]; MAX_NODES],
+    values: &Values,
+) -> ([[f64; 2]; MAX_NODES], f64) {
     let mut j = [[0.0; 2]; 2]; // j[a][d] = ∂x_d/∂ξ_a
     for i in 0..shape.nodes() {
         for a in 0..2 {
@@ -53,7 +57,8 @@ pub fn element_stiffness(
         let (g, det) = gradients(shape, x, &shape.values(xi, eta));
         let w = thickness * weight * det;
         for i in 0..shape.nodes() {
-            let (xx, xy, yx, yy) = (w * c11 * g[i][0], w * c12 * g[i][0], w * c12 * g[i][1], w * c11 * g[i][1]);
+            let (xx, xy, yx, yy) =
+                (w * c11 * g[i][0], w * c12 * g[i][0], w * c12 * g[i][1], w * c11 * g[i][1]);
             let (sx, sy) = (w * c33 * g[i][1], w * c33 * g[i][0]);
             for j in 0..=i {
                 k[2 * i][2 * j] += xx * g[j][0] + sx * g[j][1];
@@ -102,7 +107,10 @@ mod tests {
             let energy = |u: &dyn Fn([f64; 2]) -> [f64; 2]| {
                 let n = 2 * shape.nodes();
                 let u: Vec<f64> = x.iter().take(shape.nodes()).flat_map(|&x| u(x)).collect();
-                0.5 * (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| u[i] * k[i][j] * u[j]).sum::<f64>()
+                0.5 * (0..n)
+                    .flat_map(|i| (0..n).map(move |j| (i, j)))
+                    .map(|(i, j)| u[i] * k[i][j] * u[j])
+                    .sum::<f64>()
             };
             // area of the image = reference area · det, energy = h A ½ ε C ε
             let area = (2.0 * 1.5 - 0.3 * 0.4) * if shape.corners() == 3 { 0.5 } else { 4.0 };

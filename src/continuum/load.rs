@@ -20,7 +20,13 @@ fn edge_points(x: &[[f64; 2]; 3], quadratic: bool) -> impl Iterator<Item = ([f64
 
 /// Nodal forces (x, y) of an edge under a traction (x, y) and a pressure, both constant [stress]; times thickness.
 /// `x` holds start, end and mid-node.
-pub fn edge_force(x: &[[f64; 2]; 3], quadratic: bool, traction: [f64; 2], pressure: f64, thickness: f64) -> [[f64; 2]; 3] {
+pub fn edge_force(
+    x: &[[f64; 2]; 3],
+    quadratic: bool,
+    traction: [f64; 2],
+    pressure: f64,
+    thickness: f64,
+) -> [[f64; 2]; 3] {
     let mut force = [[0.0; 2]; 3];
     for (n, normal) in edge_points(x, quadratic) {
         let length = normal[0].hypot(normal[1]);

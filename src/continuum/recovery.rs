@@ -5,8 +5,8 @@
 
 use rayon::prelude::*;
 
-use super::element::{cell_coordinates, gradients};
 use super::Elasticity;
+use super::element::{cell_coordinates, gradients};
 use crate::mesh::Mesh;
 use crate::shape::Shape;
 
@@ -23,8 +23,10 @@ pub struct Stresses {
 
 /// Recovers the stresses from the displacements (x, y of every node) of one body.
 pub fn recover(mesh: &Mesh, u: &[f64], elasticity: &Elasticity, thickness: f64) -> Stresses {
-    let per_cell: Vec<(CellStress, f64)> =
-        (0..mesh.cells.len()).into_par_iter().map(|c| cell_stress(mesh, c, u, elasticity, thickness)).collect();
+    let per_cell: Vec<(CellStress, f64)> = (0..mesh.cells.len())
+        .into_par_iter()
+        .map(|c| cell_stress(mesh, c, u, elasticity, thickness))
+        .collect();
     let mut nodes = vec![[0.0; 4]; mesh.points.len()];
     let mut areas = vec![0.0; mesh.points.len()];
     let mut energy = 0.0;
@@ -56,11 +58,18 @@ struct CellStress {
 impl CellStress {
     fn at_node(&self, shape: Shape, i: usize) -> [f64; 3] {
         let [xi, eta] = shape.node_points()[i];
-        [0, 1, 2].map(|k| self.fit[0][k] + xi * self.fit[1][k] + eta * self.fit[2][k] + xi * eta * self.fit[3][k])
+        [0, 1, 2]
+            .map(|k| self.fit[0][k] + xi * self.fit[1][k] + eta * self.fit[2][k] + xi * eta * self.fit[3][k])
     }
 }
 
-fn cell_stress(mesh: &Mesh, c: usize, u: &[f64], elasticity: &Elasticity, thickness: f64) -> (CellStress, f64) {
+fn cell_stress(
+    mesh: &Mesh,
+    c: usize,
+    u: &[f64],
+    elasticity: &Elasticity,
+    thickness: f64,
+) -> (CellStress, f64) {
     let shape = mesh.cells.shapes[c];
     let nodes = mesh.cells.nodes(c);
     let x = cell_coordinates(mesh, c);
@@ -93,7 +102,15 @@ fn cell_stress(mesh: &Mesh, c: usize, u: &[f64], elasticity: &Elasticity, thickn
 }
 
 /// Adds one point to the least-squares fit of a cell.
-fn fit_point(shape: Shape, xi: f64, eta: f64, points: usize, spread: f64, stress: [f64; 3], fit: &mut [[f64; 3]; 4]) {
+fn fit_point(
+    shape: Shape,
+    xi: f64,
+    eta: f64,
+    points: usize,
+    spread: f64,
+    stress: [f64; 3],
+    fit: &mut [[f64; 3]; 4],
+) {
     let n = points as f64;
     let basis = match shape {
         Shape::Triangle3 => [1.0, 0.0, 0.0, 0.0],
@@ -141,15 +158,21 @@ mod tests {
     fn a_stress_that_the_element_can_carry_is_recovered_at_the_nodes() {
         // u = (a x + b xy, c y − b/2 x²): ε_xx = a + b y, ε_yy = c, γ_xy = 0; b = 0 for linear shapes
         let elasticity = Elasticity::new(1e4, 0.2, Plane::Stress);
-        for shape in
-            [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8, Shape::Quadrilateral9]
-        {
+        for shape in [
+            Shape::Triangle3,
+            Shape::Quadrilateral4,
+            Shape::Triangle6,
+            Shape::Quadrilateral8,
+            Shape::Quadrilateral9,
+        ] {
             let (a, b, c) = (1e-3, if shape.is_quadratic() { 2e-3 } else { 0.0 }, -3e-3);
             let (mesh, u) = one_cell(shape, |x, y| [a * x + b * x * y, c * y - 0.5 * b * x * x]);
             let stresses = recover(&mesh, &u, &elasticity, 1.0);
             for (p, stress) in mesh.points.iter().zip(&stresses.nodes) {
                 let exact = elasticity.stress([a + b * p[1], c, 0.0]);
-                for (got, exact) in [(stress[0], exact[0]), (stress[1], exact[1]), (stress[3], 0.0), (stress[2], 0.0)] {
+                for (got, exact) in
+                    [(stress[0], exact[0]), (stress[1], exact[1]), (stress[3], 0.0), (stress[2], 0.0)]
+                {
                     assert!((got - exact).abs() < 1e-11, "{shape:?} {got} {exact}");
                 }
             }

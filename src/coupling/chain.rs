@@ -30,7 +30,8 @@ pub struct Chain {
 impl Chain {
     /// Orders the edges of a side; the body lies on the left of the chain.
     pub fn order(interface: &str, side: Side) -> Result<Chain> {
-        let refuse = |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
+        let refuse =
+            |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
         let place = |node: usize| format!("({}, {})", side.points[node][0], side.points[node][1]);
         if let Some(edge) = side.edges.iter().find(|edge| !edge.boundary) {
             let what = format!("{} has an edge inside its body, near {}", side.name, place(edge.nodes[0]));
@@ -40,7 +41,8 @@ impl Chain {
             return Err(refuse(format!("{} has quadratic edges", side.name), "mesh it with ElementOrder 1"));
         }
         // edges by their start node: the chain follows from each end to the edge that starts there
-        let mut by_start: Vec<[usize; 2]> = side.edges.iter().map(|edge| [edge.nodes[0], edge.nodes[1]]).collect();
+        let mut by_start: Vec<[usize; 2]> =
+            side.edges.iter().map(|edge| [edge.nodes[0], edge.nodes[1]]).collect();
         by_start.sort_unstable();
         by_start.dedup();
         let mut by_end: Vec<usize> = by_start.iter().map(|edge| edge[1]).collect();

@@ -36,7 +36,8 @@ fn within(s: &[f64], length: f64) -> Vec<f64> {
 }
 
 fn walk(a: &[f64], b: &[f64], length: f64) -> Vec<f64> {
-    let after = |side: &[f64], s: f64| side[side.partition_point(|&x| x <= s + AFTER * length).min(side.len() - 1)];
+    let after =
+        |side: &[f64], s: f64| side[side.partition_point(|&x| x <= s + AFTER * length).min(side.len() - 1)];
     let mut nodes = vec![0.0];
     let mut s = 0.0;
     while s < length * (1.0 - AFTER) {
@@ -45,7 +46,8 @@ fn walk(a: &[f64], b: &[f64], length: f64) -> Vec<f64> {
     }
     // a short last cell joins its neighbour, unless it is a whole edge of both sides
     if let [.., before, start, end] = nodes[..] {
-        let is_edge = |side: &[f64]| side.len() >= 2 && (side[side.len() - 2] - start).abs() <= AFTER * length;
+        let is_edge =
+            |side: &[f64]| side.len() >= 2 && (side[side.len() - 2] - start).abs() <= AFTER * length;
         if end - start < 0.5 * (start - before) && !(is_edge(a) && is_edge(b)) {
             nodes.remove(nodes.len() - 2);
         }

@@ -41,7 +41,8 @@ pub(super) fn entries(midplane: &Midplane, edge_a: usize, edge_b: usize, s: f64,
         for (i, n) in n.into_iter().enumerate() {
             for component in 0..2 {
                 add(Entry { node: offset + edge + i, component, direction: component, value: sign * n });
-                place[side][component] += n * (chain.points[edge + i][component] - midplane.origin[component]);
+                place[side][component] +=
+                    n * (chain.points[edge + i][component] - midplane.origin[component]);
             }
         }
     }

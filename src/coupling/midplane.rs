@@ -54,7 +54,8 @@ pub struct Segment {
 impl Midplane {
     /// Orders the sides, finds the line in their middle, and cuts it.
     pub fn build(name: &str, side_a: Side, side_b: Side) -> Result<Midplane> {
-        let refuse = |what: String, cure: &str| Error::Interface { name: name.into(), what, cure: cure.into() };
+        let refuse =
+            |what: String, cure: &str| Error::Interface { name: name.into(), what, cure: cure.into() };
         let names = format!("{} and {}", side_a.name, side_b.name);
         let a = Chain::order(name, side_a)?.reversed(); // its body on the right: n on the left points away from it
         let b = Chain::order(name, side_b)?;
@@ -78,13 +79,19 @@ impl Midplane {
         let tangent = unit([t_a[0] + t_b[0], t_a[1] + t_b[1]]);
         let normal = [-tangent[1], tangent[0]];
         let from = a.points[0]; // local origin: differences of coordinates only, also far from zero
-        let along = |chain: &Chain| -> Vec<f64> { chain.points.iter().map(|p| dot(minus(*p, from), tangent)).collect() };
+        let along = |chain: &Chain| -> Vec<f64> {
+            chain.points.iter().map(|p| dot(minus(*p, from), tangent)).collect()
+        };
         let (mut s_a, mut s_b) = (along(&a), along(&b));
         let start = s_a[0].max(s_b[0]);
         let length = s_a[a.edges()].min(s_b[b.edges()]) - start;
         let shorter = (s_a[a.edges()] - s_a[0]).min(s_b[b.edges()] - s_b[0]);
         if length <= SLIVER.sqrt() * shorter {
-            let apart = if length < 0.0 { format!(", they are {:.3e} apart along it", -length) } else { String::new() };
+            let apart = if length < 0.0 {
+                format!(", they are {:.3e} apart along it", -length)
+            } else {
+                String::new()
+            };
             return Err(refuse(format!("{names} have no common length{apart}"), facing));
         }
         for s in s_a.iter_mut().chain(s_b.iter_mut()) {
@@ -104,7 +111,10 @@ impl Midplane {
         let widest = if gap[1] >= -gap[0] { gap[1] } else { gap[0] };
         if widest.abs() > FACING * length {
             let kind = if widest > 0.0 { "gap" } else { "overlap" };
-            let what = format!("{names} do not lie on each other: {kind} of {:.3e} over a length of {length:.3e}", widest.abs());
+            let what = format!(
+                "{names} do not lie on each other: {kind} of {:.3e} over a length of {length:.3e}",
+                widest.abs()
+            );
             return Err(refuse(what, facing));
         }
         let ((_, x_a), (_, x_b)) = ends[0];

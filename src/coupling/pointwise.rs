@@ -24,7 +24,11 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
             let s = segment.start + half * (1.0 + xi);
             let row = components * law_points.len();
             jump::entries(&midplane, segment.edge_a, segment.edge_b, s, |entry| {
-                triplets.push((row + entry.component, components * entry.node + entry.direction, entry.value));
+                triplets.push((
+                    row + entry.component,
+                    components * entry.node + entry.direction,
+                    entry.value,
+                ));
             });
             law_points.push(LawPoint {
                 weight: half * weight,

@@ -37,8 +37,9 @@ impl Symbolic {
         if pattern.size() > SMALL {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SUPERNODAL;
         }
-        let plan = factorize_symbolic_cholesky(structure(pattern), Side::Lower, SymmetricOrdering::Amd, params)
-            .map_err(|_| NotPositiveDefinite)?;
+        let plan =
+            factorize_symbolic_cholesky(structure(pattern), Side::Lower, SymmetricOrdering::Amd, params)
+                .map_err(|_| NotPositiveDefinite)?;
         Ok(Symbolic { plan })
     }
 

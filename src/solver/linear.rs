@@ -47,7 +47,11 @@ pub struct Solution {
 
 impl<'a> Linear<'a> {
     /// Factors the system with the dofs in `held` prescribed.
-    pub fn new(system: &'a System<'a>, symbolic: &'a Symbolic, held: &[bool]) -> Result<Linear<'a>, NotPositiveDefinite> {
+    pub fn new(
+        system: &'a System<'a>,
+        symbolic: &'a Symbolic,
+        held: &[bool],
+    ) -> Result<Linear<'a>, NotPositiveDefinite> {
         let mut total = system.continuum.clone();
         for (joint, stiffness) in system.joints.iter().zip(system.stiffness) {
             joint.add_stiffness(system.pattern, stiffness, &mut total);
@@ -65,7 +69,8 @@ impl<'a> Linear<'a> {
         let mut residual = self.residual(f, &u);
         let mut best: Option<(f64, Vec<f64>, Vec<f64>)> = None;
         for pass in 0..=REFINEMENTS {
-            let mut correction: Vec<f64> = (0..f.len()).map(|i| if free(i) { residual[i] } else { 0.0 }).collect();
+            let mut correction: Vec<f64> =
+                (0..f.len()).map(|i| if free(i) { residual[i] } else { 0.0 }).collect();
             if correction.iter().all(|&r| r == 0.0) && pass == 0 {
                 return Solution { reactions: self.reactions(&residual), u, backward_error: 0.0 };
             }

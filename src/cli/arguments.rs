@@ -1,0 +1,110 @@
+//! What can be typed.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::run::Options;
+
+/// Finite elements of solids whose parts are meshed separately and joined along interfaces.
+#[derive(Debug, Parser)]
+#[command(
+    name = "midplane",
+    version,
+    after_help = "\
+Examples:
+  midplane run geo/compression            mesh, solve and write results/compression
+  midplane run geo/compression -o out --set steps.0.load.upper.top.pressure=5
+  midplane check geo/cantilever           sizes, densities, segments, warnings
+  midplane schema > geo/scene.schema.json
+
+Exit codes: 0 done; 2 bad input; 3 no equilibrium (what converged is on disk); 4 environment (no gmsh, disk full)."
+)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Mesh what is stale, solve, write fields, history and summary
+    #[command(after_help = "\
+Examples:
+  midplane run geo/compression
+  midplane run geo/compression/scene.json -o out
+  midplane run geo/compression --set subdomains.lower.parameters.n=12 --set interfaces.joint.coupling=pointwise
+
+A key of --set is a path with dots or a JSON pointer; its value is JSON, or else a string.")]
+    Run {
+        #[command(flatten)]
+        common: Common,
+        /// Threads to use; all cores if absent
+        #[arg(long, value_name = "N")]
+        threads: Option<NonZeroUsize>,
+    },
+    /// Mesh the subdomains of a scene, those whose input changed
+    #[command(after_help = "\
+Example:
+  midplane mesh geo/compression           writes results/compression/mesh/<subdomain>-<hash>.msh")]
+    Mesh {
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Do everything short of solving: sizes, densities, segments, gaps, stiffness number, warnings
+    #[command(after_help = "\
+Example:
+  midplane check geo/cantilever --set interfaces.joint.law.normal_stiffness=1e9")]
+    Check {
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Print the JSON Schema of scenes
+    #[command(after_help = "\
+Example:
+  midplane schema > geo/scene.schema.json  for editors that complete and check a scene")]
+    Schema,
+    /// Print a completion script for a shell
+    #[command(after_help = "\
+Example:
+  midplane completions bash > ~/.local/share/bash-completion/completions/midplane")]
+    Completions {
+        /// bash, elvish, fish, powershell or zsh
+        shell: clap_complete::Shell,
+    },
+}
+
+/// What all commands on a scene share.
+#[derive(Debug, Args)]
+pub(super) struct Common {
+    /// A scene file, or the folder of a scene.json
+    pub scene: PathBuf,
+    /// Folder of the results; results/<scene> if absent
+    #[arg(short, long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace a value of the scene
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+    /// The mesher
+    #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
+    pub gmsh: PathBuf,
+    /// Seconds that one run of the mesher may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    pub gmsh_limit: u64,
+    /// Print errors only
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+impl Common {
+    pub(super) fn options(&self) -> Options {
+        Options {
+            scene: self.scene.clone(),
+            out: self.out.clone(),
+            settings: self.settings.clone(),
+            gmsh: self.gmsh.clone(),
+            gmsh_limit: Duration::from_secs(self.gmsh_limit),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Arguments, messages, exit codes. Printing happens here only.
+
+mod arguments;
+mod report;
+mod show;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Arguments, Command};
+
+use crate::error::{Error, Result};
+use crate::{run, scene};
+
+/// The program: reads the arguments, does what they say, prints the one error there may be.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match act(arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}", report::error(&error));
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn act(arguments: Arguments) -> Result<()> {
+    match arguments.command {
+        Command::Run { common, threads } => {
+            set_threads(threads)?;
+            let mut show = show::Show::new(common.quiet);
+            let done = run::run(&common.options(), &mut |event| show.event(event))?;
+            show.done(&done);
+            Ok(())
+        }
+        Command::Mesh { common } => {
+            let mut show = show::Show::new(common.quiet);
+            run::mesh(&common.options(), &mut |event| show.event(event))?;
+            show.finish();
+            Ok(())
+        }
+        Command::Check { common } => {
+            let mut show = show::Show::new(common.quiet);
+            let mut prepared = run::prepare(&common.options(), &mut |event| show.event(event))?;
+            prepared.folder.keep();
+            show.check(&prepared);
+            Ok(())
+        }
+        Command::Schema => print(&format!("{:#}\n", scene::scene_schema())),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "midplane", &mut script);
+            print(&String::from_utf8_lossy(&script))
+        }
+    }
+}
+
+/// Writes data to standard output; a reader that has gone away is no error.
+fn print(text: &str) -> Result<()> {
+    use std::io::Write;
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::io("write", "standard output")(error))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn set_threads(threads: Option<std::num::NonZeroUsize>) -> Result<()> {
+    let Some(threads) = threads else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global().map_err(|error| {
+        Error::Program {
+            program: "midplane".into(),
+            what: format!("cannot start {threads} threads: {error}"),
+            cure: "ask for fewer with --threads".into(),
+        }
+    })
+}

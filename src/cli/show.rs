@@ -1,0 +1,148 @@
+//! What a run prints: a bar on a terminal, plain lines elsewhere.
+
+use std::io::IsTerminal;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::assembly::Joint;
+use crate::problem::stiffness_number;
+use crate::run::{Done, Event, Prepared};
+
+/// Prints events.
+pub(super) struct Show {
+    quiet: bool,
+    bar: Option<ProgressBar>,
+    header: bool,
+}
+
+impl Show {
+    pub(super) fn new(quiet: bool) -> Show {
+        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
+            let bar = ProgressBar::new_spinner();
+            bar.enable_steady_tick(Duration::from_millis(100));
+            bar
+        });
+        Show { quiet, bar, header: false }
+    }
+
+    /// One line, above the bar if there is one.
+    fn line(&self, text: &str) {
+        if self.quiet {
+            return;
+        }
+        match &self.bar {
+            Some(bar) => bar.suspend(|| println!("{text}")),
+            None => println!("{text}"),
+        }
+    }
+
+    pub(super) fn event(&mut self, event: Event) {
+        match event {
+            Event::Stage(stage) => {
+                if let Some(bar) = &self.bar {
+                    bar.set_message(stage);
+                }
+            }
+            Event::Meshed { name, path, reused } => {
+                let how = if reused { "reused" } else { "meshed" };
+                self.line(&format!("{how:<8} {name:<12} {}", path.display()));
+            }
+            Event::Joint(joint) => self.line(&describe(joint)),
+            // a warning is worth its line also when everything else is quiet
+            Event::Warning(text) => match &self.bar {
+                Some(bar) => bar.suspend(|| eprintln!("warning: {text}")),
+                None => eprintln!("warning: {text}"),
+            },
+            Event::Increment { row, number, of, total } => {
+                if !self.header {
+                    self.line(&format!("{:<20} {:>9} {:>6} {:>10}", "step", "incr", "iter", "error"));
+                    self.header = true;
+                    if let Some(bar) = &self.bar
+                        && let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {eta}")
+                    {
+                        bar.set_length(total as u64);
+                        bar.set_style(style);
+                    }
+                }
+                if let Some(bar) = &self.bar {
+                    bar.set_position(row.increment as u64);
+                }
+                let increment = format!("{number}/{of}");
+                self.line(&format!(
+                    "{:<20} {increment:>9} {:>6} {:>10.1e}",
+                    row.step, row.iterations, row.residual
+                ));
+            }
+        }
+    }
+
+    pub(super) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+
+    pub(super) fn done(&self, done: &Done) {
+        self.finish();
+        let stages: Vec<String> = done
+            .clock
+            .stages()
+            .iter()
+            .filter(|(_, seconds)| *seconds >= 0.005)
+            .map(|(stage, seconds)| format!("{stage} {seconds:.2}"))
+            .collect();
+        self.line(&format!("time     {:.2} s: {}", done.clock.total(), stages.join(", ")));
+        self.line(&format!("wrote    {}", done.collection.display()));
+    }
+
+    /// The table of `midplane check`.
+    pub(super) fn check(&self, prepared: &Prepared) {
+        self.finish();
+        let problem = &prepared.problem;
+        let model = &problem.model;
+        self.line(&format!("{:<14} {:>9} {:>9}  shapes", "subdomain", "nodes", "cells"));
+        for body in &model.bodies {
+            let mut shapes: Vec<&str> = body.mesh.cells.shapes.iter().map(|shape| shape.label()).collect();
+            shapes.sort_unstable();
+            shapes.dedup();
+            let (nodes, cells) = (body.mesh.points.len(), body.mesh.cells.len());
+            self.line(&format!("{:<14} {nodes:>9} {cells:>9}  {}", body.name, shapes.join(" ")));
+        }
+        self.line(&format!(
+            "{:<14} {:>11} {:>6} {:>9} {:>6} {:>12} {:>11} {:>11} {:>9}",
+            "interface", "edges A:B", "ratio", "segments", "grid", "length", "gap min", "gap max", "K_N h/E"
+        ));
+        for (joint, (law, _)) in model.joints.iter().zip(&problem.laws) {
+            let midplane = &joint.coupling.midplane;
+            let (a, b) = (midplane.a.edges(), midplane.b.edges());
+            self.line(&format!(
+                "{:<14} {:>11} {:>6.2} {:>9} {:>6} {:>12.6} {:>11.2e} {:>11.2e} {:>9.2e}",
+                joint.name,
+                format!("{a}:{b}"),
+                a as f64 / b as f64,
+                midplane.segments.len(),
+                joint.coupling.grid.len(),
+                midplane.length,
+                midplane.gap[0],
+                midplane.gap[1],
+                stiffness_number(model, joint, law)
+            ));
+        }
+        let held = problem.stages.first().map_or(0, |stage| stage.held.iter().filter(|&&held| held).count());
+        self.line(&format!("{} dofs, {held} held in the first step", model.dofs()));
+    }
+}
+
+fn describe(joint: &Joint) -> String {
+    let midplane = &joint.coupling.midplane;
+    format!(
+        "joined   {:<12} {}:{} edges, {} segments, {} law points, length {:.6}",
+        joint.name,
+        midplane.a.edges(),
+        midplane.b.edges(),
+        midplane.segments.len(),
+        joint.coupling.points.len(),
+        midplane.length
+    )
+}

@@ -1,0 +1,89 @@
+//! Bodies and joints as VTU grids.
+
+use super::Snapshot;
+use super::vtu::{Array, Data, Grid};
+use crate::assembly::{Body, Joint, Model};
+use crate::continuum::principal;
+
+/// A body: displacement, stress at points and cells, principal stress.
+pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
+    let body = &model.bodies[index];
+    let u = &snapshot.u[model.dofs_of(index)];
+    let stresses = &snapshot.stresses[index];
+    let full = |s: &[f64; 4]| [s[0], s[1], s[2], s[3], 0.0, 0.0]; // xx yy zz xy yz xz
+    let mut grid = mesh(body);
+    grid.time = time;
+    grid.point_data = vec![
+        Array::float("displacement", 3, u.chunks_exact(2).flat_map(|u| [u[0], u[1], 0.0])),
+        Array::float("stress", 6, stresses.nodes.iter().flat_map(full)),
+    ];
+    grid.cell_data = vec![
+        Array::float("stress", 6, stresses.cells.iter().flat_map(full)),
+        Array::float("principal_stress", 3, stresses.cells.iter().flat_map(|&s| principal(s))),
+    ];
+    grid
+}
+
+fn mesh(body: &Body) -> Grid {
+    let cells = &body.mesh.cells;
+    Grid {
+        points: body.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),
+        connectivity: cells.nodes.iter().map(|&node| node as i64).collect(),
+        offsets: cells.offsets[1..].iter().map(|&end| end as i64).collect(),
+        types: cells.shapes.iter().map(|shape| shape.vtk()).collect(),
+        ..Grid::default()
+    }
+}
+
+/// The law points of a joint in order along C, joined by lines.
+pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
+    let points = &joint.coupling.points;
+    let n = points.len();
+    Grid {
+        points: points.iter().flat_map(|p| [p.position[0], p.position[1], 0.0]).collect(),
+        connectivity: (1..n as i64).flat_map(|i| [i - 1, i]).collect(),
+        offsets: (1..n as i64).map(|i| 2 * i).collect(),
+        types: vec![3; n - 1],
+        point_data: vec![
+            Array::float("jump", 2, snapshot.jumps[index].iter().flatten().copied()),
+            Array::float("jump_plastic", 2, vec![0.0; 2 * n]),
+            Array::float("traction", 2, snapshot.tractions[index].iter().flatten().copied()),
+            Array::float("fracture_work", 1, vec![0.0; n]),
+            Array::int("status", vec![0; n]),
+            Array::float("length", 1, points.iter().map(|p| p.weight)),
+            Array::float("normal", 3, points.iter().flat_map(|p| [p.rotation[0][0], p.rotation[0][1], 0.0])),
+        ],
+        time,
+        ..Grid::default()
+    }
+}
+
+/// The geometry of a joint, to look at: segments (`kind` 0) and grid cells (`kind` 1) as lines on C, with their parent
+/// edges on both chains (−1 for grid cells) and the arc length at every point.
+pub(super) fn midplane(joint: &Joint) -> Grid {
+    let midplane = &joint.coupling.midplane;
+    let segments = midplane.segments.iter().map(|g| (g.start, g.end, 0, g.edge_a as i64, g.edge_b as i64));
+    let cells = joint.coupling.grid.windows(2).map(|pair| (pair[0], pair[1], 1, -1, -1));
+    let lines: Vec<(f64, f64, i64, i64, i64)> = segments.chain(cells).collect();
+    let ends: Vec<f64> = lines.iter().flat_map(|line| [line.0, line.1]).collect();
+    let n = lines.len() as i64;
+    Grid {
+        points: ends
+            .iter()
+            .flat_map(|&s| midplane.position(s))
+            .collect::<Vec<_>>()
+            .chunks_exact(2)
+            .flat_map(|p| [p[0], p[1], 0.0])
+            .collect(),
+        connectivity: (0..2 * n).collect(),
+        offsets: (1..=n).map(|i| 2 * i).collect(),
+        types: vec![3; lines.len()],
+        point_data: vec![Array { name: "arc_length", components: 1, data: Data::Float(ends) }],
+        cell_data: vec![
+            Array::int("kind", lines.iter().map(|line| line.2)),
+            Array::int("edge_a", lines.iter().map(|line| line.3)),
+            Array::int("edge_b", lines.iter().map(|line| line.4)),
+        ],
+        ..Grid::default()
+    }
+}

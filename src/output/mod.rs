@@ -1,0 +1,26 @@
+//! Results on disk: fields as VTU and PVD, history.csv, summary.json. Never feeds back.
+//!
+//! Every file is complete or absent: it is written aside and renamed.
+
+mod fields;
+mod files;
+mod vtu;
+mod writer;
+
+pub use files::{write_json, write_whole};
+pub use writer::{Row, Writer};
+
+use crate::continuum::Stresses;
+
+/// One state of the model, as it is written.
+#[derive(Debug, Clone, Default)]
+pub struct Snapshot {
+    /// Displacement of every dof [length].
+    pub u: Vec<f64>,
+    /// Stresses of every body.
+    pub stresses: Vec<Stresses>,
+    /// Jump (n, t) at the law points of every joint [length].
+    pub jumps: Vec<Vec<[f64; 2]>>,
+    /// Traction (n, t) at the law points of every joint [stress].
+    pub tractions: Vec<Vec<[f64; 2]>>,
+}

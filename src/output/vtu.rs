@@ -1,0 +1,134 @@
+//! VTK's XML unstructured grid: raw appended data, zlib in blocks that are compressed in parallel.
+
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+use flate2::{Compression, write::ZlibEncoder};
+use rayon::prelude::*;
+
+/// Bytes of one compressed block.
+const BLOCK: usize = 1 << 20;
+
+/// Values of one array.
+#[derive(Debug)]
+pub(super) enum Data {
+    Float(Vec<f64>),
+    Int(Vec<i64>),
+    Byte(Vec<u8>),
+}
+
+/// A named array with its number of components.
+#[derive(Debug)]
+pub(super) struct Array {
+    pub name: &'static str,
+    pub components: usize,
+    pub data: Data,
+}
+
+/// An unstructured grid.
+#[derive(Debug, Default)]
+pub(super) struct Grid {
+    /// x, y, z of every point.
+    pub points: Vec<f64>,
+    /// Point numbers of all cells.
+    pub connectivity: Vec<i64>,
+    /// End of every cell in `connectivity`.
+    pub offsets: Vec<i64>,
+    /// VTK type of every cell.
+    pub types: Vec<u8>,
+    pub point_data: Vec<Array>,
+    pub cell_data: Vec<Array>,
+    /// Time of the state.
+    pub time: f64,
+}
+
+impl Array {
+    /// Floating point values.
+    pub(super) fn float(
+        name: &'static str,
+        components: usize,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Array {
+        Array { name, components, data: Data::Float(values.into_iter().collect()) }
+    }
+
+    /// Integer values.
+    pub(super) fn int(name: &'static str, values: impl IntoIterator<Item = i64>) -> Array {
+        Array { name, components: 1, data: Data::Int(values.into_iter().collect()) }
+    }
+}
+
+impl Grid {
+    /// The bytes of the file.
+    pub(super) fn encode(self) -> Vec<u8> {
+        let (n_points, n_cells) = (self.points.len() / 3, self.types.len());
+        let mut appended = Vec::new();
+        let mut xml = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n",
+        );
+        let mut add = |xml: &mut String, array: Array, tuples: &str| {
+            let kind = match array.data {
+                Data::Float(_) => "Float64",
+                Data::Int(_) => "Int64",
+                Data::Byte(_) => "UInt8",
+            };
+            // writing to a string cannot fail
+            let _ = writeln!(
+                xml,
+                "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{}\"{tuples} format=\"appended\" offset=\"{}\"/>",
+                array.name,
+                array.components,
+                appended.len()
+            );
+            append(&array.data, &mut appended);
+        };
+        add(&mut xml, Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
+        let _ = writeln!(
+            xml,
+            "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>"
+        );
+        add(&mut xml, Array { name: "Points", components: 3, data: Data::Float(self.points) }, "");
+        xml.push_str("</Points>\n<Cells>\n");
+        add(&mut xml, Array { name: "connectivity", components: 1, data: Data::Int(self.connectivity) }, "");
+        add(&mut xml, Array { name: "offsets", components: 1, data: Data::Int(self.offsets) }, "");
+        add(&mut xml, Array { name: "types", components: 1, data: Data::Byte(self.types) }, "");
+        xml.push_str("</Cells>\n<PointData>\n");
+        for array in self.point_data {
+            add(&mut xml, array, "");
+        }
+        xml.push_str("</PointData>\n<CellData>\n");
+        for array in self.cell_data {
+            add(&mut xml, array, "");
+        }
+        xml.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
+        let mut bytes = xml.into_bytes();
+        bytes.extend_from_slice(&appended);
+        bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
+        bytes
+    }
+}
+
+/// Appends one array: number of blocks, block size, size of the last, compressed sizes, blocks.
+fn append(data: &Data, out: &mut Vec<u8>) {
+    let bytes: Vec<u8> = match data {
+        Data::Float(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+        Data::Int(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
+        Data::Byte(values) => values.clone(),
+    };
+    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(compress).collect();
+    let last = bytes.len() % BLOCK; // zero: the last block is full
+    for header in [blocks.len(), BLOCK, last].into_iter().chain(blocks.iter().map(Vec::len)) {
+        out.extend_from_slice(&(header as u64).to_le_bytes());
+    }
+    for block in blocks {
+        out.extend_from_slice(&block);
+    }
+}
+
+fn compress(block: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::with_capacity(block.len() / 2), Compression::fast());
+    // writing to memory cannot fail
+    let _ = encoder.write_all(block);
+    encoder.finish().unwrap_or_default()
+}

@@ -1,0 +1,138 @@
+//! The results folder of one run.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{Snapshot, fields, files};
+use crate::assembly::Model;
+use crate::error::{Error, Result};
+
+/// Writes one run's results as they come.
+#[derive(Debug)]
+pub struct Writer {
+    folder: PathBuf,
+    name: String,
+    collection: Vec<(f64, String, String)>,
+    history: String,
+}
+
+/// A row of history.csv.
+#[derive(Debug, Clone, Default)]
+pub struct Row {
+    /// Name of the step.
+    pub step: String,
+    /// Number of the increment over all steps, from 1.
+    pub increment: usize,
+    /// Load level in the step, 0 to 1.
+    pub load_factor: f64,
+    /// Newton iterations; 0 where none was needed.
+    pub iterations: usize,
+    /// Out-of-balance force that is left, relative.
+    pub residual: f64,
+    /// Probes, then reactions.
+    pub values: Vec<f64>,
+}
+
+impl Writer {
+    /// Opens a folder for a run named `name`; results of an earlier run there are removed. `columns` are the names of
+    /// probes and reactions.
+    pub fn create(folder: &Path, name: &str, columns: &[String]) -> Result<Writer> {
+        remove_earlier(folder, name)?;
+        std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+        let mut history = String::from("step,increment,load_factor,iterations,residual");
+        for column in columns {
+            let _ = write!(history, ",{}", quoted(column));
+        }
+        history.push('\n');
+        Ok(Writer { folder: folder.into(), name: name.into(), collection: Vec::new(), history })
+    }
+
+    /// Writes the geometry of every joint once.
+    pub fn midplanes(&self, model: &Model) -> Result<()> {
+        for joint in &model.joints {
+            let path = self.folder.join("midplane").join(format!("{}.vtu", joint.name));
+            files::write_whole(&path, &fields::midplane(joint).encode())?;
+        }
+        Ok(())
+    }
+
+    /// Writes the fields of one state and lists them in the collection.
+    pub fn fields(&mut self, model: &Model, snapshot: &Snapshot, number: usize, time: f64) -> Result<()> {
+        let names =
+            model.bodies.iter().map(|body| &body.name).chain(model.joints.iter().map(|joint| &joint.name));
+        let names: Vec<&String> = names.collect();
+        let bodies = model.bodies.len();
+        names.par_iter().enumerate().try_for_each(|(i, name)| {
+            let grid = if i < bodies {
+                fields::body(model, i, snapshot, time)
+            } else {
+                fields::joint(&model.joints[i - bodies], i - bodies, snapshot, time)
+            };
+            files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
+        })?;
+        for name in names {
+            self.collection.push((time, name.clone(), file_name(name, number)));
+        }
+        let mut pvd = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for (time, part, file) in &self.collection {
+            let _ =
+                writeln!(pvd, "<DataSet timestep=\"{time}\" name=\"{part}\" part=\"0\" file=\"{file}\"/>");
+        }
+        pvd.push_str("</Collection>\n</VTKFile>\n");
+        files::write_whole(&self.folder.join(format!("{}.pvd", self.name)), pvd.as_bytes())
+    }
+
+    /// Adds a row to the history.
+    pub fn row(&mut self, row: &Row) -> Result<()> {
+        let Row { step, increment, load_factor, iterations, residual, values } = row;
+        let _ = write!(self.history, "{},{increment},{load_factor},{iterations},{residual:e}", quoted(step));
+        for value in values {
+            let _ = write!(self.history, ",{value:e}");
+        }
+        self.history.push('\n');
+        files::write_whole(&self.folder.join("history.csv"), self.history.as_bytes())
+    }
+
+    /// Writes summary.json.
+    pub fn summary(&self, summary: &impl Serialize) -> Result<()> {
+        files::write_json(&self.folder.join("summary.json"), summary)
+    }
+}
+
+fn file_name(name: &str, number: usize) -> String {
+    format!("fields/{name}_{number:04}.vtu")
+}
+
+/// CSV: a field with a comma, quote or line break is quoted.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
+}
+
+/// Removes what an earlier run of this program left in the folder, and nothing else.
+fn remove_earlier(folder: &Path, name: &str) -> Result<()> {
+    let remove = |path: PathBuf| match std::fs::remove_file(&path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(error)),
+        _ => Ok(()),
+    };
+    for file in [format!("{name}.pvd"), "history.csv".into(), "summary.json".into()] {
+        remove(folder.join(file))?;
+    }
+    for sub in ["fields", "midplane"] {
+        let Ok(entries) = std::fs::read_dir(folder.join(sub)) else { continue };
+        for entry in entries.flatten() {
+            if entry.path().extension().is_some_and(|extension| extension == "vtu") {
+                remove(entry.path())?;
+            }
+        }
+    }
+    Ok(())
+}

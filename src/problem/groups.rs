@@ -1,0 +1,104 @@
+//! Names to groups, with an error that lists what there is.
+
+use crate::assembly::Model;
+use crate::error::{Result, name_cure};
+use crate::mesh::{Edge, Group};
+use crate::scene::{Scene, split_group};
+
+/// A group of a body, or the whole body.
+pub(super) fn find<'a>(
+    scene: &Scene,
+    model: &'a Model,
+    path: &[&str],
+    name: &str,
+) -> Result<(usize, Option<&'a Group>)> {
+    let (subdomain, group) = split_group(name);
+    // the scene's door has checked that the subdomain exists
+    let body = scene.subdomains.get_index_of(subdomain).unwrap_or(0);
+    let Some(group) = group else {
+        return Ok((body, None));
+    };
+    let mesh = &model.bodies[body].mesh;
+    match mesh.groups.get(group) {
+        Some(found) => Ok((body, Some(found))),
+        None => {
+            let file = scene.subdomains[body].geo.as_ref().or(scene.subdomains[body].msh.as_ref());
+            let file = file.map_or("the mesh", String::as_str);
+            let cure = name_cure(group, mesh.groups.keys().map(String::as_str));
+            Err(scene.source.refuse(path, format!("no group \"{group}\" in {file}"), cure))
+        }
+    }
+}
+
+/// A group that must be a curve.
+pub(super) fn curve<'a>(
+    scene: &Scene,
+    model: &'a Model,
+    path: &[&str],
+    name: &str,
+) -> Result<(usize, &'a [Edge])> {
+    let (body, group) = find(scene, model, path, name)?;
+    match group {
+        Some(Group::Edges(edges)) => Ok((body, edges)),
+        other => {
+            let kind = other.map_or("body", Group::kind);
+            let mesh = &model.bodies[body].mesh;
+            let curves = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Edges(_)));
+            let curves: Vec<&str> = curves.map(|(name, _)| name.as_str()).collect();
+            let what = format!("\"{name}\" is a {kind}, not a curve");
+            Err(scene.source.refuse(path, what, format!("its curves are {}", curves.join(", "))))
+        }
+    }
+}
+
+/// Model nodes of a group or body, ascending, each once.
+pub(super) fn nodes(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<usize>> {
+    let (body, group) = find(scene, model, path, name)?;
+    let body = &model.bodies[body];
+    let nodes = match group {
+        Some(group) => group.points(&body.mesh),
+        None => (0..body.mesh.points.len()).collect(),
+    };
+    Ok(nodes.into_iter().map(|node| body.first_node + node).collect())
+}
+
+/// Weights of the model nodes in the mean over a group: by length, by area, or each the same for points.
+pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<(usize, f64)>> {
+    use crate::continuum::{cell_coordinates, cell_weights, edge_weights};
+    let (index, group) = find(scene, model, path, name)?;
+    let body = &model.bodies[index];
+    let mesh = &body.mesh;
+    let mut weights: Vec<(usize, f64)> = Vec::new();
+    let mut add_cell = |c: usize| {
+        let of_cell = cell_weights(mesh.cells.shapes[c], &cell_coordinates(mesh, c));
+        weights.extend(mesh.cells.nodes(c).iter().copied().zip(of_cell));
+    };
+    match group {
+        None => (0..mesh.cells.len()).for_each(&mut add_cell),
+        Some(Group::Cells(cells)) => cells.iter().copied().for_each(&mut add_cell),
+        Some(Group::Points(points)) => weights.extend(points.iter().map(|&point| (point, 1.0))),
+        Some(Group::Edges(edges)) => {
+            for edge in edges {
+                let quadratic = edge.nodes[2] != edge.nodes[1];
+                let of_edge = edge_weights(&edge_coordinates(&mesh.points, edge), quadratic);
+                weights.extend(edge.nodes.into_iter().zip(of_edge).take(if quadratic { 3 } else { 2 }));
+            }
+        }
+    }
+    let total: f64 = weights.iter().map(|(_, w)| w).sum();
+    weights.sort_by_key(|&(node, _)| node);
+    weights.dedup_by(|later, kept| {
+        let same = later.0 == kept.0;
+        if same {
+            kept.1 += later.1;
+        }
+        same
+    });
+    Ok(weights.into_iter().map(|(node, w)| (body.first_node + node, w / total)).collect())
+}
+
+/// Coordinates of an edge, relative to its start.
+pub(super) fn edge_coordinates(points: &[[f64; 2]], edge: &Edge) -> [[f64; 2]; 3] {
+    let origin = points[edge.nodes[0]];
+    edge.nodes.map(|node| [points[node][0] - origin[0], points[node][1] - origin[1]])
+}

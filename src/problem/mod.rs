@@ -1,0 +1,153 @@
+//! A scene bound to its meshes: names become nodes, edges and cells, once.
+
+mod groups;
+mod history;
+mod probes;
+mod rigid;
+
+pub use history::{Reaction, Stage};
+pub use probes::{BoundProbe, ProbeInput};
+
+use indexmap::IndexMap;
+
+use crate::assembly::{Body, Joint, Model};
+use crate::continuum::{Elasticity, Plane};
+use crate::coupling::{Coupling, Kind, Points, Side};
+use crate::error::Result;
+use crate::law::Law;
+use crate::mesh::{Edge, Mesh};
+use crate::scene::{self, Scene};
+
+/// Everything the run needs, with no names left to resolve.
+#[derive(Debug)]
+pub struct Problem {
+    /// Bodies and joints.
+    pub model: Model,
+    /// Law and initial traction of every joint.
+    pub laws: Vec<(Law, [f64; 2])>,
+    /// Supports and loads step by step.
+    pub stages: Vec<Stage>,
+    /// Columns of the history: name and probe.
+    pub probes: Vec<(String, BoundProbe)>,
+    /// Groups that hold something, for their reactions.
+    pub reactions: Vec<Reaction>,
+    /// What the user should know before believing the result.
+    pub warnings: Vec<String>,
+}
+
+impl Problem {
+    /// Binds a scene to the meshes of its subdomains, in their order.
+    pub fn bind(scene: &Scene, meshes: Vec<Mesh>) -> Result<Problem> {
+        let mut model = Model {
+            components: 2,
+            thickness: scene.thickness,
+            bodies: bodies(scene, meshes),
+            joints: Vec::new(),
+        };
+        let mut warnings = Vec::new();
+        let mut laws = Vec::new();
+        for (name, interface) in &scene.interfaces {
+            let joint = join(scene, &model, name, interface)?;
+            warnings.extend(joint_warnings(&model, &joint, interface));
+            model.joints.push(joint);
+            laws.push((interface.law, interface.initial_traction));
+        }
+        let (stages, reactions) = history::stages(scene, &model)?;
+        for stage in &stages {
+            rigid::refuse_free_bodies(&model, &laws, stage)?;
+        }
+        let probes = probes::bind(scene, &model)?;
+        Ok(Problem { model, laws, stages, probes, reactions, warnings })
+    }
+}
+
+fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
+    let plane = match scene.plane {
+        scene::Plane::Strain => Plane::Strain,
+        scene::Plane::Stress => Plane::Stress,
+    };
+    let mut first_node = 0;
+    let bodies = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {
+        let material = scene.materials[&subdomain.material];
+        let elasticity = Elasticity::new(material.young, material.poisson, plane);
+        let body = Body { name: name.clone(), mesh, elasticity, density: material.density, first_node };
+        first_node += body.mesh.points.len();
+        body
+    });
+    bodies.collect()
+}
+
+/// Builds one joint.
+fn join(scene: &Scene, model: &Model, name: &str, interface: &scene::Interface) -> Result<Joint> {
+    let mut sides: Vec<(usize, String, Vec<Edge>)> = Vec::new();
+    for (key, side) in [("side_a", &interface.side_a), ("side_b", &interface.side_b)] {
+        let mut edges = Vec::new();
+        let mut body = 0;
+        for group in side.names() {
+            let (of, members) = groups::curve(scene, model, &["interfaces", name, key], group)?;
+            body = of;
+            edges.extend_from_slice(members);
+        }
+        sides.push((body, side.names().join(", "), edges));
+    }
+    let side = |i: usize| {
+        let (body, name, edges) = &sides[i];
+        Side { name: name.as_str(), points: &model.bodies[*body].mesh.points, edges: edges.as_slice() }
+    };
+    let kind = match interface.coupling {
+        scene::CouplingKind::Projected => Kind::Projected,
+        scene::CouplingKind::Pointwise => Kind::Pointwise,
+    };
+    let points = match interface.quadrature {
+        scene::Quadrature::Gauss => Points::Gauss,
+        scene::Quadrature::Lobatto => Points::Lobatto,
+    };
+    let coupling = Coupling::build(name, side(0), side(1), kind, points)?;
+    let bodies = [sides[0].0, sides[1].0];
+    let first = bodies.map(|body| model.bodies[body].first_node);
+    Ok(Joint::new(name, coupling, bodies, first, model.dofs(), model.thickness))
+}
+
+/// K_N h/E of a joint: the larger of the two edges meeting, the smaller E, maximum along the joint.
+pub fn stiffness_number(model: &Model, joint: &Joint, law: &Law) -> f64 {
+    let midplane = &joint.coupling.midplane;
+    let edge = |s: &[f64], e: usize| s[e + 1] - s[e];
+    let lengths =
+        midplane.segments.iter().map(|g| edge(&midplane.s_a, g.edge_a).max(edge(&midplane.s_b, g.edge_b)));
+    let young = joint.bodies.map(|body| model.bodies[body].elasticity.young);
+    law.elastic_stiffness()[0] * lengths.fold(0.0, f64::max) / young[0].min(young[1])
+}
+
+fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let midplane = &joint.coupling.midplane;
+    let name = &joint.name;
+    let matched =
+        midplane.segments.len() == midplane.a.edges() && midplane.segments.len() == midplane.b.edges();
+    let number = stiffness_number(model, joint, &interface.law);
+    if interface.coupling == scene::CouplingKind::Pointwise && !matched && number > 1.0 {
+        warnings.push(format!(
+            "interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates; use \"projected\""
+        ));
+    }
+    for (chain, s, side) in [(&midplane.a, &midplane.s_a, "A"), (&midplane.b, &midplane.s_b, "B")] {
+        let whole = s[chain.edges()] - s[0];
+        if whole > midplane.length * (1.0 + 1e-9) {
+            let share = 100.0 * midplane.length / whole;
+            warnings.push(format!(
+                "interface {name}: {share:.4} % of side {side} is joined, the rest faces nothing"
+            ));
+        }
+    }
+    let widest = midplane.gap[1].max(-midplane.gap[0]);
+    if widest > 1e-9 * midplane.length {
+        warnings
+            .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
+    }
+    warnings
+}
+
+/// Meshes by subdomain name, for callers that hold them in a map.
+pub fn in_order(scene: &Scene, mut meshes: IndexMap<String, Mesh>) -> Vec<Mesh> {
+    scene.subdomains.keys().filter_map(|name| meshes.shift_remove(name)).collect()
+}

@@ -1,0 +1,170 @@
+//! Rigid motions that nothing holds: found before anything is solved, and named.
+//!
+//! Every connected part of every body has three rigid motions. Supports and joints resist combinations of them; the Gram
+//! matrix of these resistances (as yes or no, not as stiffness) must have no null space.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::Stage;
+use crate::assembly::Model;
+use crate::error::{Error, Result};
+use crate::law::Law;
+
+/// A motion is free if its resistance is below this. Of the largest resistance.
+const FREE: f64 = 1e-12;
+
+/// A connected part of a body.
+struct Part {
+    body: usize,
+    nodes: Vec<usize>, // of the model
+    centre: [f64; 2],
+    size: f64,
+}
+
+/// Refuses the step if a body can move freely in it.
+pub(super) fn refuse_free_bodies(model: &Model, laws: &[(Law, [f64; 2])], stage: &Stage) -> Result<()> {
+    let (parts, part_of) = parts(model);
+    let motion = |part: &Part, mode: usize, node: usize| -> [f64; 2] {
+        let body = &model.bodies[part.body];
+        let x = body.mesh.points[node - body.first_node];
+        match mode {
+            0 => [1.0, 0.0],
+            1 => [0.0, 1.0],
+            _ => [-(x[1] - part.centre[1]) / part.size, (x[0] - part.centre[0]) / part.size],
+        }
+    };
+    let mut gram = DMatrix::<f64>::zeros(3 * parts.len(), 3 * parts.len());
+    for (p, part) in parts.iter().enumerate() {
+        for &node in &part.nodes {
+            for d in 0..2 {
+                if stage.held[model.components * node + d] {
+                    let row = [0, 1, 2].map(|mode| motion(part, mode, node)[d]);
+                    for i in 0..3 {
+                        for j in 0..3 {
+                            gram[(3 * p + i, 3 * p + j)] += row[i] * row[j];
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let mut u = vec![0.0; model.dofs()];
+    for (joint, (law, _)) in model.joints.iter().zip(laws) {
+        let first = joint.bodies.map(|body| model.bodies[body].first_node);
+        let nodes_a = joint.coupling.nodes_a.iter().map(|&node| first[0] + node);
+        let nodes: Vec<usize> =
+            nodes_a.chain(joint.coupling.nodes_b.iter().map(|&node| first[1] + node)).collect();
+        let mut touched: Vec<usize> = nodes.iter().map(|&node| part_of[node]).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        let mut jumps: Vec<(usize, Vec<f64>)> = Vec::new();
+        for &p in &touched {
+            for mode in 0..3 {
+                for &node in nodes.iter().filter(|&&node| part_of[node] == p) {
+                    let motion = motion(&parts[p], mode, node);
+                    u[model.components * node..model.components * node + 2].copy_from_slice(&motion);
+                }
+                jumps.push((3 * p + mode, joint.jumps(&u)));
+                for &node in &nodes {
+                    u[model.components * node..model.components * node + 2].copy_from_slice(&[0.0; 2]);
+                }
+            }
+        }
+        let resists = law.elastic_stiffness().map(|k| f64::from(u8::from(k > 0.0)));
+        for (i, jump_i) in &jumps {
+            for (j, jump_j) in &jumps {
+                let sum: f64 = (0..jump_i.len()).map(|k| resists[k % 2] * jump_i[k] * jump_j[k]).sum();
+                gram[(*i, *j)] += sum;
+            }
+        }
+    }
+    let limit = FREE * gram.diagonal().max().max(f64::MIN_POSITIVE);
+    // a pure motion reads better than a combination
+    for (p, part) in parts.iter().enumerate() {
+        for (mode, text) in ["translation in x", "translation in y", "rotation"].into_iter().enumerate() {
+            if gram[(3 * p + mode, 3 * p + mode)] <= limit {
+                let [x, y] = part.centre;
+                let mode =
+                    if mode == 2 { format!("{text} about ({x:.4}, {y:.4})") } else { text.to_string() };
+                return Err(free(model, &parts, &[p], mode));
+            }
+        }
+    }
+    let eigen = SymmetricEigen::new(gram);
+    let (least, value) = eigen.eigenvalues.argmin();
+    if value > limit {
+        return Ok(());
+    }
+    let mode = eigen.eigenvectors.column(least);
+    let share = |p: usize| mode.rows(3 * p, 3).norm();
+    let largest = (0..parts.len()).map(share).fold(0.0, f64::max);
+    let mut moving: Vec<usize> = (0..parts.len()).filter(|&p| share(p) > 1e-3 * largest).collect();
+    moving.sort_by(|&p, &q| share(q).total_cmp(&share(p)));
+    let part = &parts[moving[0]];
+    let [tx, ty, turn] = [0, 1, 2].map(|k| mode[3 * moving[0] + k]);
+    let text = if turn.abs() <= 1e-6 * tx.hypot(ty) {
+        format!("translation along ({:.4}, {:.4})", tx / tx.hypot(ty), ty / tx.hypot(ty))
+    } else {
+        let omega = turn / part.size; // u = t + ω ẑ × (x − centre) vanishes at the pole
+        format!("rotation about ({:.4}, {:.4})", part.centre[0] - ty / omega, part.centre[1] + tx / omega)
+    };
+    Err(free(model, &parts, &moving, text))
+}
+
+fn free(model: &Model, parts: &[Part], moving: &[usize], mode: String) -> Error {
+    let mut names: Vec<&str> = moving.iter().map(|&p| model.bodies[parts[p].body].name.as_str()).collect();
+    names.dedup();
+    let body = match names.as_slice() {
+        [one] => format!("subdomain {one}"),
+        [first, rest @ ..] => format!("subdomain {first} (with {})", rest.join(", ")),
+        [] => String::new(),
+    };
+    Error::FreeBody { body, mode }
+}
+
+/// Connected parts of all bodies, and the part of every node.
+fn parts(model: &Model) -> (Vec<Part>, Vec<usize>) {
+    let mut root: Vec<usize> = (0..model.nodes()).collect();
+    fn find(root: &mut [usize], mut node: usize) -> usize {
+        while root[node] != node {
+            root[node] = root[root[node]];
+            node = root[node];
+        }
+        node
+    }
+    for body in &model.bodies {
+        for c in 0..body.mesh.cells.len() {
+            let nodes = body.mesh.cells.nodes(c);
+            let first = find(&mut root, body.first_node + nodes[0]);
+            for &node in &nodes[1..] {
+                let other = find(&mut root, body.first_node + node);
+                root[other] = first;
+            }
+        }
+    }
+    let mut parts: Vec<Part> = Vec::new();
+    let mut part_of = vec![usize::MAX; model.nodes()];
+    for (b, body) in model.bodies.iter().enumerate() {
+        for node in body.first_node..body.first_node + body.mesh.points.len() {
+            let top = find(&mut root, node);
+            if part_of[top] == usize::MAX {
+                part_of[top] = parts.len();
+                parts.push(Part { body: b, nodes: Vec::new(), centre: [0.0; 2], size: 0.0 });
+            }
+            part_of[node] = part_of[top];
+            parts[part_of[node]].nodes.push(node);
+        }
+    }
+    for part in &mut parts {
+        let body = &model.bodies[part.body];
+        let point = |node: usize| body.mesh.points[node - body.first_node];
+        let range = |d: usize| {
+            let values = part.nodes.iter().map(|&node| point(node)[d]);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+        };
+        let (x, y) = (range(0), range(1));
+        part.centre = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
+        part.size = 0.5 * (x.1 - x.0).max(y.1 - y.0);
+    }
+    (parts, part_of)
+}

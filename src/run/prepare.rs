@@ -1,0 +1,138 @@
+//! Everything short of solving: scene, meshes, problem.
+
+use std::path::{Path, PathBuf};
+
+use super::folder::Folder;
+use super::{Clock, Event, Listener, Options};
+use crate::error::{Error, Result};
+use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
+use crate::problem::Problem;
+use crate::scene::{self, Scene};
+
+/// A scene that is ready to be solved.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The scene.
+    pub scene: Scene,
+    /// Its name: that of its folder, and of its file unless that is `scene.json`.
+    pub name: String,
+    /// The scene bound to its meshes.
+    pub problem: Problem,
+    /// Where results go.
+    pub folder: Folder,
+    /// Time so far.
+    pub clock: Clock,
+}
+
+/// Reads, meshes and binds a scene.
+pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
+    let (scene, name, folder, mut clock, files) = mesh_scene(options, listen)?;
+    listen(Event::Stage("read meshes"));
+    clock.begin("read meshes");
+    let meshes = files.iter().map(|path| mesh::read(path)).collect::<Result<Vec<Mesh>>>()?;
+    listen(Event::Stage("bind"));
+    clock.begin("bind");
+    let problem = Problem::bind(&scene, meshes)?;
+    for joint in &problem.model.joints {
+        listen(Event::Joint(joint));
+    }
+    for warning in &problem.warnings {
+        listen(Event::Warning(warning));
+    }
+    Ok(Prepared { scene, name, problem, folder, clock })
+}
+
+/// Meshes a scene and nothing else.
+pub fn mesh(options: &Options, listen: Listener) -> Result<PathBuf> {
+    let (_, _, mut folder, _, _) = mesh_scene(options, listen)?;
+    folder.keep();
+    Ok(folder.path().join("mesh"))
+}
+
+fn mesh_scene(options: &Options, listen: Listener) -> Result<(Scene, String, Folder, Clock, Vec<PathBuf>)> {
+    listen(Event::Stage("read scene"));
+    let mut clock = Clock::new("read scene");
+    let scene = scene::read(&options.scene, &options.settings)?;
+    let name = scene_name(&scene.source.file);
+    let out = options.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
+    listen(Event::Stage("mesh"));
+    clock.begin("mesh");
+    let base = scene.source.folder();
+    let mut jobs = Vec::new();
+    for (name, subdomain) in &scene.subdomains {
+        for (key, file) in [("geo", &subdomain.geo), ("msh", &subdomain.msh)] {
+            let Some(file) = file else { continue };
+            let path = base.join(file);
+            if !path.is_file() {
+                let what = format!("there is no file {}", path.display());
+                let cure = format!("files are named relative to {}", base.display());
+                return Err(scene.source.refuse(&["subdomains", name, key], what, cure));
+            }
+            if key == "geo" {
+                let parameters =
+                    subdomain.parameters.iter().map(|(name, value)| (name.clone(), *value)).collect();
+                jobs.push(Job { subdomain: name.clone(), geo: path, parameters });
+            }
+        }
+    }
+    let folder = Folder::open(&out)?;
+    let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit);
+    let meshed = mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?;
+    for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {
+        listen(Event::Meshed { name: &job.subdomain, path, reused: *reused });
+    }
+    let mut made = meshed.into_iter().map(|meshed| meshed.path);
+    let files = scene.subdomains.values().filter_map(|subdomain| match &subdomain.msh {
+        Some(file) => Some(base.join(file)),
+        None => made.next(),
+    });
+    let files = files.collect();
+    Ok((scene, name, folder, clock, files))
+}
+
+/// `geo/shear/scene.json` is "shear", `geo/shear/stiff.json` is "shear_stiff".
+fn scene_name(file: &Path) -> String {
+    let stem = file.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned());
+    let folder = std::path::absolute(file).ok();
+    let folder = folder.as_deref().and_then(Path::parent).and_then(Path::file_name);
+    let folder = folder.map(|name| name.to_string_lossy().into_owned());
+    match (folder, stem.as_str()) {
+        (Some(folder), "scene") => folder,
+        (Some(folder), _) => format!("{folder}_{stem}"),
+        (None, _) => stem,
+    }
+}
+
+/// Peak memory of this process so far [bytes]; absent where the system does not tell.
+pub(super) fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(1024 * kilobytes)
+}
+
+/// Refuses a joint whose law needs iterations, which `run` does not have yet.
+pub(super) fn refuse_nonlinear(scene: &Scene) -> Result<()> {
+    for (name, interface) in &scene.interfaces {
+        if !matches!(interface.law, crate::law::Law::Elastic(_)) {
+            let what = "the law is not elastic, and a run solves elastic joints only";
+            let cure = "set \"type\": \"elastic\", or drive one point of the law with `midplane law`";
+            return Err(scene.source.refuse(&["interfaces", name, "law"], what, cure));
+        }
+    }
+    Ok(())
+}
+
+/// Names of the history's columns after the fixed ones: probes, then reactions.
+pub(super) fn columns(problem: &Problem) -> Vec<String> {
+    let reactions = problem
+        .reactions
+        .iter()
+        .map(|reaction| format!("reaction:{}:{}", reaction.group, reaction.direction.name()));
+    problem.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
+}
+
+/// An error of the solution, named by its place in the history.
+pub(super) fn no_equilibrium(step: &str, increment: usize, kept: usize, reason: &str) -> Error {
+    Error::NoEquilibrium { step: step.into(), increment, reason: reason.into(), kept }
+}

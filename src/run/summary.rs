@@ -1,0 +1,156 @@
+//! summary.json: sizes, where the time went, how good the solution is.
+
+use std::collections::BTreeMap;
+
+use indexmap::IndexMap;
+use serde::Serialize;
+
+use super::Clock;
+use super::prepare::peak_memory;
+use crate::assembly::Model;
+use crate::problem::{Problem, stiffness_number};
+use crate::scene::Scene;
+
+/// Counts over the whole run.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Totals {
+    pub increments: usize,
+    pub factorisations: usize,
+    pub factor_entries: usize,
+    pub backward_error: f64,
+}
+
+impl Totals {
+    pub(super) fn add(&mut self, backward_error: f64) {
+        self.increments += 1;
+        self.backward_error = self.backward_error.max(backward_error);
+    }
+}
+
+/// The file.
+#[derive(Debug, Serialize)]
+pub(super) struct Summary<'a> {
+    program: &'static str,
+    version: &'static str,
+    scene: &'a str,
+    title: &'a str,
+    sizes: Sizes<'a>,
+    solution: Solution,
+    equilibrium: Balance,
+    /// Seconds by stage.
+    time: IndexMap<&'static str, f64>,
+    peak_memory_bytes: Option<u64>,
+    warnings: &'a [String],
+}
+
+#[derive(Debug, Serialize)]
+struct Sizes<'a> {
+    nodes: usize,
+    dofs: usize,
+    subdomains: IndexMap<&'a str, SubdomainSize>,
+    interfaces: IndexMap<&'a str, InterfaceSize>,
+}
+
+#[derive(Debug, Serialize)]
+struct SubdomainSize {
+    nodes: usize,
+    cells: BTreeMap<&'static str, usize>,
+}
+
+#[derive(Debug, Serialize)]
+struct InterfaceSize {
+    edges_a: usize,
+    edges_b: usize,
+    segments: usize,
+    grid_nodes: usize,
+    law_points: usize,
+    length: f64,
+    gap: [f64; 2],
+    stiffness_number: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Solution {
+    increments: usize,
+    iterations: usize,
+    factorisations: usize,
+    factor_entries: usize,
+    /// Largest componentwise backward error max |r| / (|A| |u| + |f|) of all increments.
+    backward_error: f64,
+}
+
+/// Applied loads against reactions at the last increment [force].
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct Balance {
+    load: [f64; 2],
+    reaction: [f64; 2],
+    /// |load + reaction| over the sum of all nodal loads and reactions, by magnitude.
+    imbalance: f64,
+}
+
+/// Sums loads and reactions.
+pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
+    let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
+    let (load, reaction) = (sum(force), sum(reactions));
+    let scale: f64 = force.iter().chain(reactions).map(|f| f.abs()).sum();
+    let rest = (load[0] + reaction[0]).hypot(load[1] + reaction[1]);
+    Balance { load, reaction, imbalance: if scale > 0.0 { rest / scale } else { 0.0 } }
+}
+
+/// Gathers the summary.
+pub(super) fn summary<'a>(
+    scene: &'a Scene,
+    name: &'a str,
+    problem: &'a Problem,
+    totals: &Totals,
+    equilibrium: Balance,
+    clock: &Clock,
+) -> Summary<'a> {
+    let model = &problem.model;
+    let subdomains = model.bodies.iter().map(|body| {
+        let mut cells = BTreeMap::new();
+        for shape in &body.mesh.cells.shapes {
+            *cells.entry(shape.label()).or_insert(0) += 1;
+        }
+        (body.name.as_str(), SubdomainSize { nodes: body.mesh.points.len(), cells })
+    });
+    let interfaces = model.joints.iter().zip(&problem.laws).map(|(joint, (law, _))| {
+        let midplane = &joint.coupling.midplane;
+        let size = InterfaceSize {
+            edges_a: midplane.a.edges(),
+            edges_b: midplane.b.edges(),
+            segments: midplane.segments.len(),
+            grid_nodes: joint.coupling.grid.len(),
+            law_points: joint.coupling.points.len(),
+            length: midplane.length,
+            gap: midplane.gap,
+            stiffness_number: stiffness_number(model, joint, law),
+        };
+        (joint.name.as_str(), size)
+    });
+    let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();
+    time.insert("total", clock.total());
+    Summary {
+        program: env!("CARGO_PKG_NAME"),
+        version: env!("CARGO_PKG_VERSION"),
+        scene: name,
+        title: &scene.title,
+        sizes: Sizes {
+            nodes: model.nodes(),
+            dofs: model.dofs(),
+            subdomains: subdomains.collect(),
+            interfaces: interfaces.collect(),
+        },
+        solution: Solution {
+            increments: totals.increments,
+            iterations: 0,
+            factorisations: totals.factorisations,
+            factor_entries: totals.factor_entries,
+            backward_error: totals.backward_error,
+        },
+        equilibrium,
+        time,
+        peak_memory_bytes: peak_memory(),
+        warnings: &problem.warnings,
+    }
+}
