@@ -31,11 +31,12 @@ impl Joint {
         let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
         let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);
         let nodes: Vec<usize> = nodes_a.chain(nodes_b).collect();
-        let mut jump = coupling.jump.clone();
-        jump.width = dofs;
-        for column in &mut jump.columns {
-            *column = c * nodes[*column / c] + *column % c;
+        let mut entries = Vec::with_capacity(coupling.jump.values.len());
+        for i in 0..coupling.jump.rows() {
+            let (columns, values) = coupling.jump.row(i);
+            entries.extend(columns.iter().zip(values).map(|(&j, &value)| (i, c * nodes[j / c] + j % c, value)));
         }
+        let jump = Csr::from_triplets(coupling.jump.rows(), dofs, &entries); // columns ascend again
         Joint { name: name.into(), coupling, bodies, jump, thickness }
     }
 
