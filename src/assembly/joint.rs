@@ -34,7 +34,8 @@ impl Joint {
         let mut entries = Vec::with_capacity(coupling.jump.values.len());
         for i in 0..coupling.jump.rows() {
             let (columns, values) = coupling.jump.row(i);
-            entries.extend(columns.iter().zip(values).map(|(&j, &value)| (i, c * nodes[j / c] + j % c, value)));
+            entries
+                .extend(columns.iter().zip(values).map(|(&j, &value)| (i, c * nodes[j / c] + j % c, value)));
         }
         let jump = Csr::from_triplets(coupling.jump.rows(), dofs, &entries); // columns ascend again
         Joint { name: name.into(), coupling, bodies, jump, thickness }

@@ -60,8 +60,7 @@ impl Sources {
                 format!("of the names it declares with DefineConstant {}", declared()),
             ));
         }
-        if has(&self.assigned) && !has(&self.declared) && !self.mentions("Exists")
-        {
+        if has(&self.assigned) && !has(&self.declared) && !self.mentions("Exists") {
             return Err(Error::mesh(
                 geo,
                 format!("sets \"{parameter}\" itself, whatever value it is given"),

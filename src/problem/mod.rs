@@ -8,8 +8,6 @@ mod rigid;
 pub use history::{Reaction, Stage};
 pub use probes::{BoundProbe, ProbeInput};
 
-use indexmap::IndexMap;
-
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
 use crate::coupling::{Coupling, Kind, Points, Side};
@@ -145,9 +143,4 @@ fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) ->
             .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
     }
     warnings
-}
-
-/// Meshes by subdomain name, for callers that hold them in a map.
-pub fn in_order(scene: &Scene, mut meshes: IndexMap<String, Mesh>) -> Vec<Mesh> {
-    scene.subdomains.keys().filter_map(|name| meshes.shift_remove(name)).collect()
 }

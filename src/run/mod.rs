@@ -4,18 +4,20 @@
 
 mod clock;
 mod folder;
-mod linear;
+mod march;
 mod prepare;
 mod summary;
 
 pub use clock::Clock;
+pub use march::{Place, State, Totals, march};
 pub use prepare::{Prepared, mesh, prepare};
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::error::Result;
-use crate::output::Row;
+use crate::output::{Row, Writer};
+use crate::scene::Fields;
 
 /// What the user asked for.
 #[derive(Debug, Clone)]
@@ -77,8 +79,59 @@ pub struct Done {
     pub clock: Clock,
 }
 
-/// Runs a scene.
+/// Runs a scene: prepares, solves, writes.
 pub fn run(options: &Options, listen: Listener) -> Result<Done> {
-    let prepared = prepare(options, listen)?;
-    linear::solve(prepared, listen)
+    let Prepared { scene, name, problem, mut folder, mut clock } = prepare(options, listen)?;
+    prepare::refuse_nonlinear(&scene)?;
+    let path = folder.path().to_path_buf();
+    let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
+    let listen = std::cell::RefCell::new(listen);
+    let mut writer: Option<Writer> = None;
+    let mut balance = None;
+    let mut visit = |place: Place, state: &State, _: &Totals, clock: &mut Clock| -> Result<()> {
+        clock.begin("write");
+        let fields = scene.output.fields;
+        if place.number == 0 {
+            // the first factor stands: a run that is refused before leaves the last results in place
+            folder.keep();
+            let mut opened = Writer::create(&path, &name, &prepare::columns(&problem))?;
+            opened.midplanes(&problem.model)?;
+            if matches!(fields, Fields::Every | Fields::Step) {
+                opened.fields(&problem.model, &state.snapshot, 0, 0.0)?;
+            }
+            writer = Some(opened);
+            return Ok(());
+        }
+        let Some(writer) = &mut writer else { return Ok(()) };
+        let wanted = match fields {
+            Fields::Every => true,
+            Fields::Step => place.number == place.stage.increments,
+            Fields::Last => place.increment == total,
+            Fields::None => false,
+        };
+        if wanted {
+            let time = place.step as f64 + place.load_factor;
+            writer.fields(&problem.model, &state.snapshot, place.increment, time)?;
+        }
+        let row = Row {
+            step: place.stage.name.clone(),
+            increment: place.increment,
+            load_factor: place.load_factor,
+            iterations: 0,
+            residual: state.backward_error,
+            values: state.probes(&problem),
+        };
+        writer.row(&row)?;
+        balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+        let of = place.stage.increments;
+        (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total });
+        Ok(())
+    };
+    let totals =
+        march(&problem, &mut clock, &mut |name| (listen.borrow_mut())(Event::Stage(name)), &mut visit)?;
+    if let (Some(writer), Some(balance)) = (&writer, balance) {
+        writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock))?;
+    }
+    let collection = path.join(format!("{name}.pvd"));
+    Ok(Done { folder: path, collection, clock })
 }

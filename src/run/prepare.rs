@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::folder::Folder;
 use super::{Clock, Event, Listener, Options};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::problem::Problem;
 use crate::scene::{self, Scene};
@@ -130,9 +130,4 @@ pub(super) fn columns(problem: &Problem) -> Vec<String> {
         .iter()
         .map(|reaction| format!("reaction:{}:{}", reaction.group, reaction.direction.name()));
     problem.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
-}
-
-/// An error of the solution, named by its place in the history.
-pub(super) fn no_equilibrium(step: &str, increment: usize, kept: usize, reason: &str) -> Error {
-    Error::NoEquilibrium { step: step.into(), increment, reason: reason.into(), kept }
 }

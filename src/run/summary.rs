@@ -5,27 +5,11 @@ use std::collections::BTreeMap;
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use super::Clock;
 use super::prepare::peak_memory;
+use super::{Clock, Totals};
 use crate::assembly::Model;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::Scene;
-
-/// Counts over the whole run.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Totals {
-    pub increments: usize,
-    pub factorisations: usize,
-    pub factor_entries: usize,
-    pub backward_error: f64,
-}
-
-impl Totals {
-    pub(super) fn add(&mut self, backward_error: f64) {
-        self.increments += 1;
-        self.backward_error = self.backward_error.max(backward_error);
-    }
-}
 
 /// The file.
 #[derive(Debug, Serialize)]

@@ -10,7 +10,7 @@ mod schema;
 mod set;
 mod source;
 
-pub use read::read;
+pub use read::{parse, read};
 pub use schema::scene_schema;
 pub use source::Source;
 

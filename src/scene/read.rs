@@ -14,7 +14,8 @@ pub fn read(path: &Path, settings: &[String]) -> Result<Scene> {
     parse(file, text, settings)
 }
 
-fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
+/// Reads a scene from its text; `file` is for messages and for the files it names.
+pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
     let mut value: Value = serde_json::from_str(&text).map_err(|error| syntax(&file, &text, &error))?;
     let source = Source::new(file, text);
     if let Some(path) = &source.duplicate {

@@ -1,28 +1,75 @@
-//! A linear scene: one factorisation per set of supports, one solve per increment, no iteration.
+//! The march through the load history of a linear scene: one factorisation per set of supports, one solve per
+//! increment, no iteration.
 
-use super::prepare::{columns, no_equilibrium, refuse_nonlinear};
-use super::summary::{self, Totals};
-use super::{Done, Event, Listener, Prepared};
+use super::Clock;
 use crate::assembly::Model;
-use crate::continuum::recover;
-use crate::error::Result;
-use crate::output::{Row, Snapshot, Writer};
+use crate::continuum::{Stresses, recover};
+use crate::error::{Error, Result};
+use crate::output::Snapshot;
 use crate::problem::{ProbeInput, Problem, Stage};
-use crate::scene::Fields;
 use crate::solver::{Linear, Solution, Symbolic, System};
 
-/// Solves all steps and writes the results.
-pub(super) fn solve(mut prepared: Prepared, listen: Listener) -> Result<Done> {
-    refuse_nonlinear(&prepared.scene)?;
-    let Prepared { scene, name, problem, folder, clock } = &mut prepared;
-    let model = &problem.model;
-    let first = &problem.stages[0].name;
-    let singular = |step: &str, kept| {
-        no_equilibrium(step, 1, kept, "the stiffness is not positive definite in floating point")
-    };
+/// Counts over a whole march.
+#[derive(Debug, Clone, Default)]
+pub struct Totals {
+    /// Increments done.
+    pub increments: usize,
+    /// Factorisations.
+    pub factorisations: usize,
+    /// Entries of one factor.
+    pub factor_entries: usize,
+    /// Largest componentwise backward error max |r| / (|A| |u| + |f|).
+    pub backward_error: f64,
+}
 
-    listen(Event::Stage("assemble"));
-    clock.begin("assemble");
+/// Where in the history a state stands.
+#[derive(Debug, Clone, Copy)]
+pub struct Place<'a> {
+    /// Number of the step, from 0.
+    pub step: usize,
+    /// The step.
+    pub stage: &'a Stage,
+    /// Number of the increment within its step, from 1; 0 is the unloaded state before the first.
+    pub number: usize,
+    /// Number of the increment over all steps.
+    pub increment: usize,
+    /// Load level in the step, 0 to 1.
+    pub load_factor: f64,
+}
+
+/// The model after an increment.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Displacements, stresses, jumps, tractions.
+    pub snapshot: Snapshot,
+    /// External forces by dof [force].
+    pub force: Vec<f64>,
+    /// Reactions by dof [force].
+    pub reactions: Vec<f64>,
+    /// Componentwise backward error of the solution.
+    pub backward_error: f64,
+    /// Elastic energy of bodies and joints [force × length].
+    pub stored: f64,
+    /// Work of loads and prescribed displacements so far [force × length].
+    pub work: f64,
+}
+
+/// Called after the unloaded state (`number` 0) and after every increment, with the running counts.
+pub type Visit<'a> = &'a mut dyn FnMut(Place, &State, &Totals, &mut Clock) -> Result<()>;
+
+/// Marches through all steps. `stage` hears of every stage of work.
+pub fn march(
+    problem: &Problem,
+    clock: &mut Clock,
+    stage: &mut dyn FnMut(&'static str),
+    visit: Visit,
+) -> Result<Totals> {
+    let mut begin = |clock: &mut Clock, name: &'static str| {
+        stage(name);
+        clock.begin(name);
+    };
+    begin(clock, "assemble");
+    let model = &problem.model;
     let stiffness: Vec<Vec<f64>> = problem
         .laws
         .iter()
@@ -37,81 +84,51 @@ pub(super) fn solve(mut prepared: Prepared, listen: Listener) -> Result<Done> {
     let system =
         System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
     let initial = initial_force(problem);
-    listen(Event::Stage("order"));
-    clock.begin("order");
-    let symbolic = Symbolic::analyse(&pattern).map_err(|_| singular(first, 0))?;
+    begin(clock, "order");
+    let symbolic = Symbolic::analyse(&pattern).map_err(|_| singular(&problem.stages[0], 0))?;
 
-    let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
     let mut totals = Totals { factor_entries: symbolic.entries(), ..Totals::default() };
-    let mut writer: Option<Writer> = None;
     let mut state = State::unloaded(problem);
     let mut factored: Option<(&[bool], Linear)> = None;
-    for (index, stage) in problem.stages.iter().enumerate() {
-        if factored.as_ref().is_none_or(|(held, _)| *held != stage.held) {
-            listen(Event::Stage("factor"));
-            clock.begin("factor");
-            let linear = Linear::new(&system, &symbolic, &stage.held)
-                .map_err(|_| singular(&stage.name, totals.increments))?;
-            factored = Some((&stage.held, linear));
-            totals.factorisations += 1;
-        }
-        let Some((_, linear)) = &factored else { continue };
-        // the results folder is opened once the first factor stands: a run that is refused leaves the last one in place
-        let writer = match &mut writer {
-            Some(writer) => writer,
+    for (step, stage) in problem.stages.iter().enumerate() {
+        let (_, linear) = match factored.take().filter(|(held, _)| *held == stage.held) {
+            Some(same) => factored.insert(same),
             None => {
-                clock.begin("write");
-                folder.keep();
-                let mut opened = Writer::create(folder.path(), name, &columns(problem))?;
-                opened.midplanes(model)?;
-                if matches!(scene.output.fields, Fields::Every | Fields::Step) {
-                    opened.fields(model, &state.snapshot, 0, 0.0)?;
-                }
-                writer.insert(opened)
+                begin(clock, "factor");
+                totals.factorisations += 1;
+                let linear = Linear::new(&system, &symbolic, &stage.held);
+                factored.insert((&stage.held, linear.map_err(|_| singular(stage, totals.increments))?))
             }
         };
+        if step == 0 {
+            visit(Place { step, stage, number: 0, increment: 0, load_factor: 0.0 }, &state, &totals, clock)?;
+        }
         let start = state.snapshot.u.clone();
         for number in 1..=stage.increments {
-            listen(Event::Stage("solve"));
-            clock.begin("solve");
+            begin(clock, "solve");
             let load_factor = number as f64 / stage.increments as f64;
-            let force = force(stage, load_factor);
+            let force = ramp(&stage.force_start, &stage.force_end, load_factor);
             let loaded: Vec<f64> = force.iter().zip(&initial).map(|(f, f0)| f - f0).collect();
-            let ramp = |(u0, u1): (&f64, &f64)| u0 + load_factor * (u1 - u0);
-            let prescribed: Vec<f64> = start.iter().zip(&stage.target).map(ramp).collect();
+            let prescribed = ramp(&start, &stage.target, load_factor);
             let solution = linear.solve(&loaded, &prescribed);
-            clock.begin("recover");
+            begin(clock, "recover");
             state.advance(problem, solution, force);
-            totals.add(state.backward_error);
-            let row = state.row(problem, stage, totals.increments, load_factor);
-            clock.begin("write");
-            let last = totals.increments == total;
-            let wanted = match scene.output.fields {
-                Fields::Every => true,
-                Fields::Step => number == stage.increments,
-                Fields::Last => last,
-                Fields::None => false,
-            };
-            if wanted {
-                writer.fields(model, &state.snapshot, totals.increments, index as f64 + load_factor)?;
-            }
-            writer.row(&row)?;
-            listen(Event::Increment { row: &row, number, of: stage.increments, total });
+            totals.increments += 1;
+            totals.backward_error = totals.backward_error.max(state.backward_error);
+            let place = Place { step, stage, number, increment: totals.increments, load_factor };
+            visit(place, &state, &totals, clock)?;
         }
     }
     clock.begin("end");
-    if let Some(writer) = &writer {
-        let balance = summary::balance(model, &state.force, &state.reactions);
-        writer.summary(&summary::summary(scene, name, problem, &totals, balance, clock))?;
-    }
-    let collection = folder.path().join(format!("{name}.pvd"));
-    Ok(Done { folder: folder.path().into(), collection, clock: clock.clone() })
+    Ok(totals)
 }
 
-/// External forces within a step.
-fn force(stage: &Stage, load_factor: f64) -> Vec<f64> {
-    let ramp = |(f0, f1): (&f64, &f64)| f0 + load_factor * (f1 - f0);
-    stage.force_start.iter().zip(&stage.force_end).map(ramp).collect()
+fn ramp(start: &[f64], end: &[f64], load_factor: f64) -> Vec<f64> {
+    start
+        .iter()
+        .zip(end)
+        .map(|(a, b)| if load_factor == 1.0 { *b } else { a + load_factor * (b - a) })
+        .collect()
 }
 
 /// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions (paper eq. 12).
@@ -123,14 +140,9 @@ fn initial_force(problem: &Problem) -> Vec<f64> {
     force
 }
 
-/// Where the run stands.
-struct State {
-    snapshot: Snapshot,
-    force: Vec<f64>,
-    reactions: Vec<f64>,
-    backward_error: f64,
-    stored: f64,
-    work: f64,
+fn singular(stage: &Stage, kept: usize) -> Error {
+    let reason = "the stiffness is not positive definite in floating point".into();
+    Error::NoEquilibrium { step: stage.name.clone(), increment: 1, reason, kept }
 }
 
 impl State {
@@ -162,6 +174,7 @@ impl State {
         self.recover(problem);
     }
 
+    /// Stresses, jumps, tractions and energy of the displacements.
     fn recover(&mut self, problem: &Problem) {
         let Problem { model, laws, .. } = problem;
         let u = &self.snapshot.u;
@@ -182,7 +195,8 @@ impl State {
         }
     }
 
-    fn row(&self, problem: &Problem, stage: &Stage, increment: usize, load_factor: f64) -> Row {
+    /// Values of the scene's probes, then of its reactions.
+    pub fn probes(&self, problem: &Problem) -> Vec<f64> {
         let input = ProbeInput {
             u: &self.snapshot.u,
             jumps: &self.snapshot.jumps,
@@ -196,18 +210,11 @@ impl State {
             .reactions
             .iter()
             .map(|reaction| reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum());
-        Row {
-            step: stage.name.clone(),
-            increment,
-            load_factor,
-            iterations: 0,
-            residual: self.backward_error,
-            values: probes.chain(reactions).collect(),
-        }
+        probes.chain(reactions).collect()
     }
 }
 
-fn stresses(model: &Model, body: usize, u: &[f64]) -> crate::continuum::Stresses {
+fn stresses(model: &Model, body: usize, u: &[f64]) -> Stresses {
     let of = &model.bodies[body];
     recover(&of.mesh, &u[model.dofs_of(body)], &of.elasticity, model.thickness)
 }
