@@ -11,7 +11,8 @@ use clap::{CommandFactory, Parser};
 use arguments::{Arguments, Command};
 
 use crate::error::{Error, Result};
-use crate::{run, scene};
+use crate::run;
+use crate::scene;
 
 /// The program: reads the arguments, does what they say, prints the one error there may be.
 pub fn main() -> ExitCode {

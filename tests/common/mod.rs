@@ -1,0 +1,115 @@
+//! Meshes and scenes for tests, made without gmsh.
+#![allow(dead_code)]
+
+use indexmap::IndexMap;
+use midplane::mesh::{Cells, Edge, Group, Mesh};
+use midplane::problem::Problem;
+use midplane::run::{Clock, Place, State, Totals, march};
+use midplane::scene;
+use midplane::shape::Shape;
+
+/// n + 1 equally spaced places from `start` to `end`.
+pub fn even(start: f64, end: f64, n: usize) -> Vec<f64> {
+    (0..=n).map(|i| if i == n { end } else { start + (end - start) * i as f64 / n as f64 }).collect()
+}
+
+/// n + 1 places from `start` to `end`, the last cell `ratio` times the first.
+pub fn graded(start: f64, end: f64, n: usize, ratio: f64) -> Vec<f64> {
+    let q = ratio.powf(1.0 / (n as f64 - 1.0));
+    let sums: Vec<f64> = (0..=n).map(|i| (0..i).map(|k| q.powi(k as i32)).sum()).collect();
+    sums.iter().map(|s| start + (end - start) * s / sums[n]).collect()
+}
+
+/// A rectangle of T3 (alternating diagonals) or Q4, mapped into the plane by `place`.
+///
+/// ```text
+///   ┌── top ──┐      groups: bottom, right, top, left (curves), corner (point 0), body (surface)
+///  left     right
+///   └ bottom ─┘
+/// ```
+pub fn rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {
+    let (nx, ny) = (xs.len() - 1, ys.len() - 1);
+    let node = |i: usize, j: usize| j * (nx + 1) + i;
+    let mut points = Vec::new();
+    for &y in ys {
+        points.extend(xs.iter().map(|&x| place(x, y)));
+    }
+    let mut cells = Cells::default();
+    for j in 0..ny {
+        for i in 0..nx {
+            let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+            match shape {
+                Shape::Quadrilateral4 => cells.push(shape, &[a, b, c, d]),
+                Shape::Triangle3 if (i + j) % 2 == 0 => {
+                    cells.push(shape, &[a, b, c]);
+                    cells.push(shape, &[a, c, d]);
+                }
+                Shape::Triangle3 => {
+                    cells.push(shape, &[a, b, d]);
+                    cells.push(shape, &[b, c, d]);
+                }
+                other => unimplemented!("{other:?}"),
+            }
+        }
+    }
+    let edge = |start: usize, end: usize| {
+        let cell = (0..cells.len()).find(|&c| {
+            let nodes = cells.nodes(c);
+            (0..nodes.len()).any(|k| nodes[k] == start && nodes[(k + 1) % nodes.len()] == end)
+        });
+        Edge { nodes: [start, end, end], cell: cell.unwrap(), boundary: true }
+    };
+    let mut groups = IndexMap::new();
+    let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
+    curve("bottom", (0..nx).map(|i| edge(node(i, 0), node(i + 1, 0))).collect());
+    curve("right", (0..ny).map(|j| edge(node(nx, j), node(nx, j + 1))).collect());
+    curve("top", (0..nx).rev().map(|i| edge(node(i + 1, ny), node(i, ny))).collect());
+    curve("left", (0..ny).rev().map(|j| edge(node(0, j + 1), node(0, j))).collect());
+    groups.insert("corner".into(), Group::Points(vec![0]));
+    groups.insert("body".into(), Group::Cells((0..cells.len()).collect()));
+    Mesh { file: "test.msh".into(), points, cells, groups }
+}
+
+/// Rotation by degrees about the origin.
+pub fn rotation(degrees: f64) -> impl Fn(f64, f64) -> [f64; 2] + Copy {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    move |x, y| [cos * x - sin * y, sin * x + cos * y]
+}
+
+/// Binds a scene text to meshes.
+pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
+    let scene = scene::parse("scene.json".into(), text.into(), &[])?;
+    Problem::bind(&scene, meshes)
+}
+
+/// All states of a scene after its increments, and the counts.
+pub fn solve(problem: &Problem) -> (Vec<State>, Totals) {
+    let mut states = Vec::new();
+    let mut clock = Clock::new("test");
+    let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
+        if place.number > 0 {
+            states.push(state.clone());
+        }
+        Ok(())
+    };
+    let totals = march(problem, &mut clock, &mut |_| (), &mut visit).unwrap();
+    (states, totals)
+}
+
+/// Displacement of a node of a body.
+pub fn displacement(problem: &Problem, state: &State, body: usize, node: usize) -> [f64; 2] {
+    let dof = 2 * (problem.model.bodies[body].first_node + node);
+    [state.snapshot.u[dof], state.snapshot.u[dof + 1]]
+}
+
+/// Points of a group of a body.
+pub fn group(problem: &Problem, body: usize, name: &str) -> Vec<usize> {
+    let mesh = &problem.model.bodies[body].mesh;
+    mesh.groups[name].points(mesh)
+}
+
+/// Asserts |got − exact| ≤ tolerance · scale.
+#[track_caller]
+pub fn close(got: f64, exact: f64, tolerance: f64, scale: f64, what: &str) {
+    assert!((got - exact).abs() <= tolerance * scale.abs(), "{what}: {got:e}, exact {exact:e}");
+}

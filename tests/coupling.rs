@@ -1,0 +1,315 @@
+//! Properties of the coupling of two straight sides.
+
+mod common;
+
+use common::{even, graded};
+use midplane::coupling::{Coupling, Kind, Points, Side};
+use midplane::mesh::Edge;
+use proptest::prelude::*;
+
+/// A joint along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.
+struct Line {
+    points_a: Vec<[f64; 2]>,
+    points_b: Vec<[f64; 2]>,
+}
+
+impl Line {
+    fn new(s_a: &[f64], s_b: &[f64], degrees: f64, gap: f64) -> Line {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let at = |s: f64, n: f64| [0.3 + s * cos - n * sin, -0.7 + s * sin + n * cos];
+        Line {
+            points_a: s_a.iter().map(|&s| at(s, 0.0)).collect(),
+            points_b: s_b.iter().map(|&s| at(s, gap)).collect(),
+        }
+    }
+
+    /// A lies below: its body is on the left of an edge that runs backwards. B lies above.
+    fn couple(&self, kind: Kind, points: Points) -> Coupling {
+        let back = edges(self.points_a.len(), true);
+        let forth = edges(self.points_b.len(), false);
+        let a = Side { name: "lower.top", points: &self.points_a, edges: &back };
+        let b = Side { name: "upper.bottom", points: &self.points_b, edges: &forth };
+        Coupling::build("joint", a, b, kind, points).unwrap()
+    }
+
+    /// The same joint with A and B exchanged.
+    fn couple_swapped(&self, kind: Kind) -> Coupling {
+        let back = edges(self.points_a.len(), true);
+        let forth = edges(self.points_b.len(), false);
+        let a = Side { name: "lower.top", points: &self.points_a, edges: &back };
+        let b = Side { name: "upper.bottom", points: &self.points_b, edges: &forth };
+        Coupling::build("joint", b, a, kind, Points::Gauss).unwrap()
+    }
+
+    /// Nodal displacements of a field, in the order of the coupling's columns.
+    fn displacements(
+        &self,
+        c: &Coupling,
+        swapped: bool,
+        a: &dyn Fn([f64; 2]) -> [f64; 2],
+        b: &dyn Fn([f64; 2]) -> [f64; 2],
+    ) -> Vec<f64> {
+        let (first, second, f, g) = if swapped {
+            (&self.points_b, &self.points_a, b, a)
+        } else {
+            (&self.points_a, &self.points_b, a, b)
+        };
+        let of_a = c.nodes_a.iter().flat_map(|&node| f(first[node]));
+        let of_b = c.nodes_b.iter().flat_map(|&node| g(second[node]));
+        of_a.chain(of_b).collect()
+    }
+}
+
+fn edges(nodes: usize, backwards: bool) -> Vec<Edge> {
+    let edge = |i: usize| {
+        let (start, end) = if backwards { (i + 1, i) } else { (i, i + 1) };
+        Edge { nodes: [start, end, end], cell: 0, boundary: true }
+    };
+    // file order is nobody's business: interleave from both ends
+    let mut order: Vec<usize> = (0..nodes - 1).collect();
+    order.sort_by_key(|&i| i.min(nodes - 2 - i));
+    order.into_iter().map(edge).collect()
+}
+
+/// Jumps (n, t) at the law points.
+fn jumps(c: &Coupling, u: &[f64]) -> Vec<[f64; 2]> {
+    let a = c.jump.multiply(u);
+    let jump = |p: &midplane::coupling::LawPoint| {
+        [0, 1].map(|k| {
+            p.interpolation
+                .iter()
+                .map(|&(i, n)| n * (0..2).map(|d| p.rotation[k][d] * a[2 * i + d]).sum::<f64>())
+                .sum()
+        })
+    };
+    c.points.iter().map(jump).collect()
+}
+
+/// Dense K = Gᵀ Σ w Nᵀ Rᵀ D R N G by the definition.
+fn stiffness(c: &Coupling, d: [f64; 2]) -> Vec<Vec<f64>> {
+    let n = c.jump.width;
+    let mut k = vec![vec![0.0; n]; n];
+    let columns: Vec<Vec<[f64; 2]>> = (0..n)
+        .map(|j| {
+            let mut unit = vec![0.0; n];
+            unit[j] = 1.0;
+            jumps(c, &unit)
+        })
+        .collect();
+    for (p, point) in c.points.iter().enumerate() {
+        for i in 0..n {
+            for j in 0..n {
+                k[i][j] +=
+                    (0..2).map(|m| point.weight * d[m] * columns[i][p][m] * columns[j][p][m]).sum::<f64>();
+            }
+        }
+    }
+    k
+}
+
+/// Claim: on matched sides both couplings are the classical zero-thickness element (paper eqs. 4–13).
+///
+/// ```text
+///   3 ───── 4 ── …     B = R [−N_α I, −N_β I, N_α I, N_β I],   N_α = (1 − ξ)/2, N_β = (1 + ξ)/2
+///   1 ───── 2 ── …     K_e = ∫ Bᵀ D B dL with two Gauss (or Lobatto) points
+/// ```
+#[test]
+fn matched_sides_are_the_classical_element_entry_by_entry() {
+    let s = [0.0, 0.4, 1.0, 1.3];
+    let d = [3e4, 2e4];
+    for degrees in [0.0, 30.0, 200.0] {
+        let line = Line::new(&s, &s, degrees, 0.0);
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let r = [[-sin, cos], [cos, sin]]; // rows n and t, t along the line
+        for (kind, points) in [
+            (Kind::Pointwise, Points::Gauss),
+            (Kind::Pointwise, Points::Lobatto),
+            (Kind::Projected, Points::Gauss),
+            (Kind::Projected, Points::Lobatto),
+        ] {
+            let places =
+                if points == Points::Gauss { [-1.0 / 3f64.sqrt(), 1.0 / 3f64.sqrt()] } else { [-1.0, 1.0] };
+            let coupling = line.couple(kind, points);
+            let k = stiffness(&coupling, d);
+            let n = s.len();
+            let mut exact = vec![vec![0.0; 4 * n]; 4 * n];
+            // columns of the coupling: A's nodes and B's nodes along the chain
+            for e in 0..n - 1 {
+                let half = 0.5 * (s[e + 1] - s[e]);
+                for xi in places {
+                    let (alpha, beta) = (0.5 * (1.0 - xi), 0.5 * (1.0 + xi));
+                    let mut b = [[0.0; 8]; 2];
+                    for (block, value) in [-alpha, -beta, alpha, beta].into_iter().enumerate() {
+                        for m in 0..2 {
+                            for x in 0..2 {
+                                b[m][2 * block + x] = r[m][x] * value;
+                            }
+                        }
+                    }
+                    let dof = |i: usize| [2 * e, 2 * e + 2, 2 * (n + e), 2 * (n + e + 1)][i / 2] + i % 2;
+                    for i in 0..8 {
+                        for j in 0..8 {
+                            let sum: f64 = (0..2).map(|m| b[m][i] * d[m] * b[m][j]).sum();
+                            exact[dof(i)][dof(j)] += half * sum;
+                        }
+                    }
+                }
+            }
+            let along = |nodes: &[usize]| nodes.windows(2).all(|w| w[0] < w[1]);
+            assert!(along(&coupling.nodes_a) && along(&coupling.nodes_b));
+            for i in 0..4 * n {
+                for j in 0..4 * n {
+                    assert!(
+                        (k[i][j] - exact[i][j]).abs() < 1e-12 * d[0],
+                        "{kind:?} {points:?} {degrees}°: {i} {j}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+const DENSITIES: [(usize, usize); 6] = [(1, 1), (5, 8), (7, 12), (1, 37), (24, 25), (40, 5)];
+
+/// Claim: constant and linear jumps are reproduced exactly, at any density, angle and (small) gap.
+#[test]
+fn constant_and_linear_jumps_are_reproduced() {
+    let a = |x: [f64; 2]| [1e-3 + 2e-3 * x[0] - 1e-3 * x[1], -2e-3 + 0.5e-3 * x[0] + 3e-3 * x[1]];
+    let b = |x: [f64; 2]| [-4e-3 - 1e-3 * x[0] + 2e-3 * x[1], 1e-3 + 4e-3 * x[0] - 2e-3 * x[1]];
+    for (n_a, n_b) in DENSITIES {
+        for degrees in [0.0, 77.0] {
+            let line = Line::new(&even(0.0, 2.0, n_a), &graded(0.0, 2.0, n_b.max(2), 5.0), degrees, 0.0);
+            for kind in [Kind::Pointwise, Kind::Projected] {
+                let c = line.couple(kind, Points::Gauss);
+                let got = jumps(&c, &line.displacements(&c, false, &a, &b));
+                for (point, jump) in c.points.iter().zip(got) {
+                    let (ua, ub) = (a(point.position), b(point.position));
+                    for m in 0..2 {
+                        let exact: f64 = (0..2).map(|d| point.rotation[m][d] * (ub[d] - ua[d])).sum();
+                        assert!((jump[m] - exact).abs() < 1e-15, "{kind:?} {n_a}:{n_b} {degrees}°");
+                    }
+                }
+                let length: f64 = c.points.iter().map(|p| p.weight).sum();
+                assert!((length / 2.0 - 1.0).abs() < 1e-14);
+                let segments: f64 = c.midplane.segments.iter().map(|g| g.end - g.start).sum();
+                assert!((segments / 2.0 - 1.0).abs() < 1e-14);
+            }
+        }
+    }
+}
+
+/// Claim: a rigid motion of the whole model gives no jump, also where the faces are a little apart.
+#[test]
+fn rigid_motions_give_no_jump() {
+    for gap in [0.0, 1e-4, -1e-3] {
+        for (n_a, n_b) in DENSITIES {
+            let line = Line::new(&even(0.0, 2.0, n_a), &even(0.0, 2.0, n_b), 20.0, gap);
+            for kind in [Kind::Pointwise, Kind::Projected] {
+                let c = line.couple(kind, Points::Gauss);
+                let rigid = |x: [f64; 2]| [0.3 - 0.1 * x[1], -0.2 + 0.1 * x[0]];
+                for jump in jumps(&c, &line.displacements(&c, false, &rigid, &rigid)) {
+                    assert!(
+                        jump[0].abs().max(jump[1].abs()) < 2e-15,
+                        "{kind:?} {n_a}:{n_b} gap {gap}: {jump:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Claim: the grid has at most as many cells as the coarser side, and is that side where the other is finer.
+#[test]
+fn the_grid_is_as_fine_as_the_locally_coarser_side() {
+    let fine = even(0.0, 1.0, 40);
+    let coarse = graded(0.0, 1.0, 7, 3.0);
+    let c = Line::new(&fine, &coarse, 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    assert!(c.grid.len() <= coarse.len());
+    for (n_a, n_b) in DENSITIES {
+        let c = Line::new(&even(0.0, 1.0, n_a), &even(0.0, 1.0, n_b), 0.0, 0.0)
+            .couple(Kind::Projected, Points::Gauss);
+        assert!(c.grid.len() - 1 <= n_a.min(n_b), "{n_a}:{n_b}");
+    }
+    // nested: every node of the coarse side is a node of the fine one, so the grid is the coarse side
+    let c =
+        Line::new(&even(0.0, 1.0, 40), &even(0.0, 1.0, 5), 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    for (got, exact) in c.grid.iter().zip(even(0.0, 1.0, 5)) {
+        assert!((got - exact).abs() < 1e-15);
+    }
+    // on a part of the length only the common part is joined
+    let c =
+        Line::new(&even(0.0, 1.0, 10), &even(0.3, 1.7, 9), 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    assert!((c.midplane.length - 0.7).abs() < 1e-15);
+}
+
+fn places() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(0.02f64..1.0, 1..25).prop_map(|steps| {
+        let sums: Vec<f64> = std::iter::once(0.0)
+            .chain(steps.iter().scan(0.0, |sum, step| {
+                *sum += step;
+                Some(*sum)
+            }))
+            .collect();
+        sums.iter().map(|s| 2.0 * s / sums[sums.len() - 1]).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Claim: exchanging A and B, or turning the joint around, gives the same operator.
+    #[test]
+    fn labels_do_not_matter(s_a in places(), s_b in places(), degrees in 0.0f64..360.0) {
+        let line = Line::new(&s_a, &s_b, degrees, 0.0);
+        let a = |x: [f64; 2]| [(3.0 * x[0]).sin(), x[0] * x[1]];
+        let b = |x: [f64; 2]| [x[1] * x[1], (2.0 * x[1] - x[0]).cos()];
+        for kind in [Kind::Pointwise, Kind::Projected] {
+            let (one, two) = (line.couple(kind, Points::Gauss), line.couple_swapped(kind));
+            let first = jumps(&one, &line.displacements(&one, false, &a, &b));
+            let mut second = jumps(&two, &line.displacements(&two, true, &a, &b));
+            second.reverse(); // the walk along C turns with the normal
+            prop_assert_eq!(first.len(), second.len());
+            for (p, q) in first.iter().zip(&second) {
+                for m in 0..2 {
+                    prop_assert!((p[m] - q[m]).abs() < 1e-12, "{kind:?} {p:?} {q:?}");
+                }
+            }
+        }
+    }
+
+    /// Claim: weights are positive and sum to the length; there are no more grid cells than edges of either side.
+    #[test]
+    fn weights_are_positive(s_a in places(), s_b in places()) {
+        let line = Line::new(&s_a, &s_b, 0.0, 0.0);
+        for kind in [Kind::Pointwise, Kind::Projected] {
+            let c = line.couple(kind, Points::Gauss);
+            prop_assert!(c.points.iter().all(|p| p.weight > 0.0));
+            prop_assert!((c.points.iter().map(|p| p.weight).sum::<f64>() - 2.0).abs() < 1e-13);
+            prop_assert!(c.points.windows(2).all(|w| w[0].s < w[1].s));
+            prop_assert!(c.grid.len() <= s_a.len().min(s_b.len()));
+        }
+    }
+}
+
+/// Claim: what cannot be joined is refused with the reason and its size.
+#[test]
+fn sides_that_do_not_face_each_other_are_refused() {
+    let refusal = |points_a: &[[f64; 2]], points_b: &[[f64; 2]], turn: bool| {
+        let (back, forth) = (edges(points_a.len(), true), edges(points_b.len(), turn));
+        let a = Side { name: "lower.top", points: points_a, edges: &back };
+        let b = Side { name: "upper.bottom", points: points_b, edges: &forth };
+        Coupling::build("joint", a, b, Kind::Projected, Points::Gauss).unwrap_err().to_string()
+    };
+    let line = |x0: f64, y: f64| [[x0, y], [x0 + 0.5, y], [x0 + 1.0, y]];
+    for (a, b, turn, expected) in [
+        (line(0.0, 0.0), line(0.0, 0.1), false, "gap of 1.000e-1 over a length of 1.000e0"),
+        (line(0.0, 0.0), line(0.0, -0.1), false, "overlap of 1.000e-1"),
+        (line(0.0, 0.0), line(2.0, 0.0), false, "no common length, they are 1.000e0 apart"),
+        (line(0.0, 0.0), line(1.0, 0.0), false, "no common length"),
+        (line(0.0, 0.0), line(0.0, 0.0), true, "do not face each other"),
+        (line(0.0, 0.0), [[0.0, 0.0], [0.5, 0.01], [1.0, 0.0]], false, "upper.bottom is not straight"),
+    ] {
+        let message = refusal(&a, &b, turn);
+        assert!(message.starts_with("interface joint: ") && message.contains(expected), "{message}");
+    }
+}
