@@ -31,7 +31,7 @@ pub(super) fn gather(
     let mut groups = IndexMap::new();
     for (declared, members) in content.declared.iter().zip(members) {
         if members.is_empty() {
-            return Err(empty(declared));
+            return Err(declared.empty());
         }
         let group = match declared.dim {
             0 => Group::Points(points(declared, &members, content, numbers)?),
@@ -62,15 +62,6 @@ fn distinct_names(declared: &[Declared]) -> Found<()> {
         }),
         None => Ok(()),
     }
-}
-
-fn empty(group: &Declared) -> Fault {
-    let kind = KINDS[group.dim];
-    let cure = match group.dim {
-        3 => "a plane mesh has physical points, curves and surfaces".into(),
-        _ => format!("a physical {kind} lists {kind}s that exist and are meshed"),
-    };
-    Fault { what: format!("physical {kind} \"{}\" has no elements", group.name), cure }
 }
 
 fn ascending(mut members: Vec<usize>) -> Vec<usize> {

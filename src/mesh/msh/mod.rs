@@ -118,13 +118,16 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
         }
         cursor.skip_space();
     }
+    entities.declare(&mut content.declared);
     if content.shapes.is_empty() {
-        return Err(Fault {
-            what: "has no triangles or quadrilaterals".into(),
-            cure: "give the .geo a Physical Surface that covers the body".into(),
+        return Err(match content.declared.iter().find(|group| group.dim == 2) {
+            Some(surface) => surface.empty(),
+            None => Fault {
+                what: "has no triangles or quadrilaterals".into(),
+                cure: "give the .geo a Physical Surface that covers the body".into(),
+            },
         });
     }
-    entities.declare(&mut content.declared);
     Ok(content)
 }
 

@@ -1,6 +1,6 @@
 //! Physical names, which mshio drops: lines `dimension tag "name"`, text also in binary files.
 
-use super::{Fault, damaged};
+use super::{Fault, KINDS, damaged};
 
 /// A physical group as gmsh declares it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -11,6 +11,18 @@ pub(in crate::mesh) struct Declared {
     pub(in crate::mesh) tag: u32,
     /// Its name; the number as text if it has none.
     pub(in crate::mesh) name: String,
+}
+
+impl Declared {
+    /// The refusal of a group that holds nothing.
+    pub(in crate::mesh) fn empty(&self) -> Fault {
+        let kind = KINDS[self.dim];
+        let cure = match self.dim {
+            3 => "a plane mesh has physical points, curves and surfaces".into(),
+            _ => format!("a physical {kind} lists {kind}s that exist and are meshed"),
+        };
+        Fault { what: format!("physical {kind} \"{}\" has no elements", self.name), cure }
+    }
 }
 
 /// The groups that have names, from the content of `$PhysicalNames`.

@@ -1,0 +1,447 @@
+//! Meshing with the real gmsh: every kind of cell, the cache, and all the ways in which gmsh can fail.
+
+#[path = "common/mesh_text.rs"]
+mod mesh_text;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use mesh_text::{area, close, edges, keeps_its_promises, length};
+use midplane::error::{Error, Result};
+use midplane::mesh::{Gmsh, Group, Job, Mesh, Meshed, mesh_all, read};
+use midplane::shape::Shape;
+
+/// A block 2 × 1 with n × m divisions; the right half may be recombined into quadrilaterals, and the cells quadratic.
+///
+/// ```text
+///   4 ── top ─ 5 ─ top ── 6      physical surface "body", curves "bottom", "top", "left side"
+///   │          │          │      and "middle" (2-5), point "corner" (1)
+///   1 ─ bottom 2 ─ bottom 3
+/// ```
+const BLOCK: &str = r#"
+DefineConstant[ n = {3, Name "Block/n"}, m = 2, order = 1, incomplete = 0, left = 0, right = 0 ];
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0};
+Point(4) = {0, 1, 0}; Point(5) = {1, 1, 0}; Point(6) = {2, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1};
+Line(7) = {2, 5};
+Curve Loop(1) = {1, 7, 5, 6}; Curve Loop(2) = {2, 3, 4, -7};
+Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Transfinite Curve{1, 2, 4, 5} = n + 1; Transfinite Curve{3, 6, 7} = m + 1; Transfinite Surface{1, 2};
+If (left) Recombine Surface{1}; EndIf
+If (right) Recombine Surface{2}; EndIf
+Mesh.ElementOrder = order; Mesh.SecondOrderIncomplete = incomplete;
+Physical Surface("body") = {1, 2}; Physical Curve("bottom") = {1, 2}; Physical Curve("top") = {4, 5};
+Physical Curve("left side") = {-6}; Physical Curve("middle") = {7}; Physical Point("corner") = {1};
+"#;
+
+/// A folder with a .geo in it.
+struct Place {
+    folder: tempfile::TempDir,
+    geo: PathBuf,
+}
+
+impl Place {
+    fn new(name: &str, text: &str) -> Place {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let geo = folder.path().join(name);
+        fs::write(&geo, text).expect("a .geo");
+        Place { folder, geo }
+    }
+
+    fn cache(&self) -> PathBuf {
+        self.folder.path().join("cache")
+    }
+
+    fn job(&self, parameters: &[(&str, f64)]) -> Job {
+        let parameters = parameters.iter().map(|(name, value)| (name.to_string(), *value)).collect();
+        Job { subdomain: "block".into(), geo: self.geo.clone(), parameters }
+    }
+
+    fn mesh_with(&self, gmsh: &Gmsh, parameters: &[(&str, f64)]) -> Result<Meshed> {
+        Ok(mesh_all(gmsh, &self.cache(), &[self.job(parameters)])?.remove(0))
+    }
+
+    fn mesh(&self, parameters: &[(&str, f64)]) -> Result<Meshed> {
+        self.mesh_with(&Gmsh::default(), parameters)
+    }
+
+    /// The error of meshing, with nothing left in the cache.
+    fn refusal(&self, gmsh: &Gmsh, parameters: &[(&str, f64)]) -> Error {
+        let error = self.mesh_with(gmsh, parameters).expect_err("meshing must fail");
+        let left = fs::read_dir(self.cache()).map_or(0, |entries| entries.count());
+        assert_eq!(left, 0, "the cache holds files after {error}");
+        error
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.folder.path().join(name), text).expect("a file beside the .geo");
+    }
+}
+
+/// A program that stands in for gmsh: answers --version, else runs the script.
+fn impostor(place: &Place, script: &str) -> Gmsh {
+    use std::os::unix::fs::PermissionsExt;
+    let program = place.folder.path().join("impostor");
+    let text = format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo 4.8.4 >&2; exit 0; fi\n{script}\n");
+    fs::write(&program, text).expect("a script");
+    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("an executable script");
+    Gmsh::new(program, Duration::from_secs(20))
+}
+
+fn check_block(mesh: &Mesh, quadratic: bool) {
+    keeps_its_promises(mesh);
+    close(area(mesh), 2.0);
+    let sides = [("bottom", 2.0, true), ("top", 2.0, true), ("left side", 1.0, true), ("middle", 1.0, false)];
+    for (name, expected, boundary) in sides {
+        // gmsh places nodes along a curve to about 1e-12
+        assert!((length(mesh, name) - expected).abs() < 1e-10, "{name}");
+        let edges = edges(mesh, name);
+        for edge in edges {
+            assert_eq!(edge.boundary, boundary, "{name}");
+            assert_eq!(edge.nodes[1] != edge.nodes[2], quadratic);
+        }
+    }
+    // with the body on its left the bottom runs along +x and the top along -x
+    for (name, direction) in [("bottom", 1.0), ("top", -1.0)] {
+        let edges = edges(mesh, name);
+        assert!(
+            edges.iter().all(|e| direction * (mesh.points[e.nodes[1]][0] - mesh.points[e.nodes[0]][0]) > 0.0)
+        );
+    }
+    assert!(matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0, 0.0]));
+}
+
+#[test]
+fn every_kind_of_cell_is_meshed_and_read() {
+    use Shape::{Quadrilateral4, Quadrilateral8, Quadrilateral9, Triangle3, Triangle6};
+    const N: usize = 5;
+    const M: usize = 3;
+    // points of a transfinite block with 2 n × m divisions, of order 1 and 2; Q8 has none at its centres
+    let (linear, quadratic) = ((2 * N + 1) * (M + 1), (4 * N + 1) * (2 * M + 1));
+    let (quads, triangles) = (N * M, 2 * N * M);
+    let cases = [
+        ([1.0, 0.0, 0.0, 0.0], Triangle3, Triangle3, linear),
+        ([2.0, 0.0, 0.0, 0.0], Triangle6, Triangle6, quadratic),
+        ([1.0, 0.0, 1.0, 1.0], Quadrilateral4, Quadrilateral4, linear),
+        ([2.0, 1.0, 1.0, 1.0], Quadrilateral8, Quadrilateral8, quadratic - 2 * quads),
+        ([2.0, 0.0, 1.0, 1.0], Quadrilateral9, Quadrilateral9, quadratic),
+        ([1.0, 0.0, 0.0, 1.0], Triangle3, Quadrilateral4, linear),
+        ([2.0, 0.0, 0.0, 1.0], Triangle6, Quadrilateral9, quadratic),
+        ([2.0, 1.0, 0.0, 1.0], Triangle6, Quadrilateral8, quadratic - quads),
+    ];
+    let place = Place::new("block.geo", BLOCK);
+    let jobs: Vec<Job> = cases
+        .iter()
+        .map(|([order, incomplete, left, right], ..)| {
+            let kind = [("order", *order), ("incomplete", *incomplete), ("left", *left), ("right", *right)];
+            place.job(&[&kind[..], &[("n", N as f64), ("m", M as f64)]].concat())
+        })
+        .collect();
+    let meshed = mesh_all(&Gmsh::default(), &place.cache(), &jobs).unwrap();
+    for ((_, left, right, points), meshed) in cases.iter().zip(&meshed) {
+        let mesh = read(&meshed.path).unwrap();
+        check_block(&mesh, left.is_quadratic());
+        assert_eq!(mesh.points.len(), *points, "{left:?} and {right:?}");
+        let count = |shape: &Shape| mesh.cells.shapes.iter().filter(|s| *s == shape).count();
+        let expected = |shape: &Shape| if shape.corners() == 3 { triangles } else { quads };
+        assert_eq!(
+            count(left) + if left == right { 0 } else { count(right) },
+            expected(left) + expected(right)
+        );
+        assert!(count(left) >= expected(left) && count(right) >= expected(right));
+    }
+}
+
+#[test]
+fn text_and_sparsely_numbered_files_of_gmsh_are_read() {
+    let place = Place::new("block.geo", BLOCK);
+    for (order, right) in [("1", "0"), ("2", "1")] {
+        for options in [&[][..], &["-bin"], &["-setnumber", "Mesh.Renumber", "0"], &["-save_all"]] {
+            let path = place.folder.path().join("mesh.msh");
+            let ended = Command::new("gmsh")
+                .arg(&place.geo)
+                .args([
+                    "-2",
+                    "-format",
+                    "msh41",
+                    "-setnumber",
+                    "order",
+                    order,
+                    "-setnumber",
+                    "right",
+                    right,
+                    "-o",
+                ])
+                .arg(&path)
+                .args(options)
+                .stdout(Stdio::null())
+                .status()
+                .unwrap();
+            assert!(ended.success());
+            check_block(&read(&path).unwrap(), order == "2");
+        }
+    }
+}
+
+#[test]
+fn curved_edges_follow_the_circle() {
+    // a quarter disc of radius 1: with k quadratic edges on the arc the area misses π/4 by the fourth power of the edge
+    let geo = r#"
+        DefineConstant[ k = 4 ];
+        Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {0, 1, 0};
+        Line(1) = {1, 2}; Circle(2) = {2, 1, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1:3}; Plane Surface(1) = {1};
+        Transfinite Curve{1:3} = k + 1; Mesh.ElementOrder = 2;
+        Physical Surface("disc") = {1}; Physical Curve("arc") = {2};
+    "#;
+    let place = Place::new("disc.geo", geo);
+    let miss = |k: f64| {
+        let mesh = read(&place.mesh(&[("k", k)]).unwrap().path).unwrap();
+        keeps_its_promises(&mesh);
+        (area(&mesh) - std::f64::consts::FRAC_PI_4).abs()
+    };
+    let (coarse, fine) = (miss(4.0), miss(8.0));
+    assert!(coarse < 1e-4 && fine < coarse / 12.0, "{coarse} {fine}");
+}
+
+#[test]
+fn only_what_has_changed_is_meshed_again() {
+    let place = Place::new("block.geo", &format!("Include \"sizes.geo\";\n{BLOCK}"));
+    place.write("sizes.geo", "Include \"deep.geo\"; // nested");
+    place.write("deep.geo", "a = 1;");
+    let first = place.mesh(&[]).unwrap();
+    assert!(!first.reused);
+    assert_eq!(place.mesh(&[]).unwrap(), Meshed { path: first.path.clone(), reused: true });
+    let name = first.path.file_name().unwrap().to_str().unwrap();
+    let hex = name.strip_prefix("block-").and_then(|rest| rest.strip_suffix(".msh")).unwrap();
+    assert!(hex.len() == 12 && hex.chars().all(|c| c.is_ascii_hexdigit()), "{name}");
+
+    let fresh = |what: &str, parameters: &[(&str, f64)]| {
+        let meshed = place.mesh(parameters).unwrap();
+        assert!(!meshed.reused && meshed.path != first.path, "{what}");
+        assert!(place.mesh(parameters).unwrap().reused, "{what}");
+    };
+    fresh("another parameter", &[("n", 4.0)]);
+    fresh("another value, in its last digit", &[("n", 4.000000000000001)]);
+    place.write("deep.geo", "a = 2;");
+    fresh("a nested include", &[]);
+    place.write("deep.geo", "a = 1;");
+    assert_eq!(place.mesh(&[]).unwrap(), Meshed { path: first.path.clone(), reused: true });
+    place.write("block.geo.opt", "Mesh.Algorithm = 5;");
+    fresh("options beside the .geo", &[]);
+    fs::remove_file(place.folder.path().join("block.geo.opt")).unwrap();
+    fs::write(&place.geo, format!("Include \"sizes.geo\";\n{BLOCK}\n")).unwrap();
+    fresh("the .geo", &[]);
+    let files = fs::read_dir(place.cache()).unwrap().map(|entry| entry.unwrap().file_name());
+    assert!(files.map(|name| name.into_string().unwrap()).all(|name| name.ends_with(".msh")));
+}
+
+#[test]
+fn a_hit_does_not_start_the_mesher_and_another_version_does() {
+    let place = Place::new("block.geo", BLOCK);
+    let through = impostor(&place, "exec gmsh \"$@\"");
+    assert!(!place.mesh_with(&through, &[]).unwrap().reused);
+    let closed = impostor(&place, "exit 9");
+    assert!(place.mesh_with(&closed, &[]).unwrap().reused);
+    let newer = place.folder.path().join("impostor");
+    fs::write(
+        &newer,
+        fs::read_to_string(&newer).unwrap().replace("4.8.4", "4.13.1").replace("exit 9", "exec gmsh \"$@\""),
+    )
+    .unwrap();
+    let newer = Gmsh::new(newer, Duration::from_secs(20));
+    assert_eq!(newer.version().unwrap(), "4.13.1");
+    assert!(!place.mesh_with(&newer, &[]).unwrap().reused);
+}
+
+#[test]
+fn what_a_geo_fetches_from_elsewhere_is_meshed_every_time() {
+    let place =
+        Place::new("block.geo", &format!("name = Str(\"sizes\"); Include StrCat(name, \".geo\");\n{BLOCK}"));
+    place.write("sizes.geo", "a = 1;");
+    assert!(!place.mesh(&[]).unwrap().reused);
+    assert!(!place.mesh(&[]).unwrap().reused);
+}
+
+#[test]
+fn awkward_file_names_are_only_names() {
+    for name in
+        ["-a b.geo", "it's.geo", "say \"a\".geo", "two\nlines.geo", "a;b $HOME `x` *.geo", "größe 界.geo"]
+    {
+        let place = Place::new(name, BLOCK);
+        let mut job = place.job(&[]);
+        job.subdomain = "../odd name".into();
+        let meshed = mesh_all(&Gmsh::default(), &place.cache(), &[job]).unwrap();
+        check_block(&read(&meshed[0].path).unwrap(), false);
+        assert_eq!(meshed[0].path.parent().unwrap(), place.cache());
+    }
+}
+
+#[test]
+fn what_gmsh_refuses_is_bad_input_with_its_own_words() {
+    let gmsh = Gmsh::default();
+    let cases = [
+        ("a syntax error", BLOCK.replace("Line(7)", "Lime(7)"), "gmsh ended with exit code 1"),
+        (
+            "an unknown variable",
+            BLOCK.replace("Point(1) = {0, 0", "Point(1) = {0, zero"),
+            "Unknown variable 'zero'",
+        ),
+        ("a missing include", format!("Include \"none.geo\";{BLOCK}"), "none.geo"),
+        ("a missing merge", format!("Merge \"none.step\";{BLOCK}"), "none.step"),
+        ("an error of its own", format!("Error(\"not like this\");{BLOCK}"), "not like this"),
+        ("an early end", format!("Exit;{BLOCK}"), "wrote no mesh"),
+        (
+            "crossing lines",
+            BLOCK.replace("Point(5) = {1, 1", "Point(5) = {3, 0.5").replace("Transfinite", "//"),
+            "gmsh ended with exit code 1",
+        ),
+    ];
+    for (case, text, expected) in cases {
+        let place = Place::new("bad.geo", &text);
+        let error = place.refusal(&gmsh, &[]);
+        assert!(matches!(error, Error::Gmsh { .. }) && error.exit_code() == 2, "{case}: {error}");
+        let message = error.to_string();
+        assert!(message.contains("bad.geo: gmsh ") && message.contains(expected), "{case}: {message}");
+    }
+}
+
+#[test]
+fn what_gmsh_passes_over_in_silence_is_refused() {
+    let gmsh = Gmsh::default();
+    let cases = [
+        (
+            "a surface that does not exist",
+            BLOCK.replace("\"body\") = {1, 2}", "\"body\") = {3}"),
+            "\"body\" has no elements",
+        ),
+        (
+            "a curve that does not exist",
+            BLOCK.replace("\"bottom\") = {1, 2}", "\"bottom\") = {8}"),
+            "\"bottom\" has no elements",
+        ),
+        (
+            "no surface",
+            BLOCK.replace("Physical Surface(\"body\") = {1, 2};", ""),
+            "no triangles or quadrilaterals",
+        ),
+        ("nothing", String::new(), "no triangles or quadrilaterals"),
+        ("an abort", format!("Abort;{BLOCK}"), "no triangles or quadrilaterals"),
+        (
+            "half a body",
+            BLOCK.replace("{1, 2}; Physical Curve(\"bottom\")", "{1}; Physical Curve(\"bottom\")"),
+            "lies on no cell",
+        ),
+        ("another format", format!("Mesh.MshFileVersion = 2.2;{BLOCK}"), "MSH 2.2"),
+        (
+            "the third dimension",
+            BLOCK.replace("Point(6) = {2, 1, 0}", "Point(6) = {2, 1, 1}"),
+            "off the plane",
+        ),
+        ("cubic cells", BLOCK.replace("= order;", "= 3;"), "cubic"),
+        ("one name twice", BLOCK.replace("\"bottom\"", "\"body\""), "are both called \"body\""),
+    ];
+    for (case, text, expected) in cases {
+        let place = Place::new("silent.geo", &text);
+        let error = place.refusal(&gmsh, &[]);
+        let message = error.to_string();
+        assert!(error.exit_code() == 2 && message.contains("silent.geo: "), "{case}: {message}");
+        assert!(message.contains(expected), "{case}: {message}");
+    }
+}
+
+#[test]
+fn a_parameter_that_the_geo_does_not_know_is_refused() {
+    let place = Place::new("block.geo", BLOCK);
+    let gmsh = Gmsh::default();
+    let message = place.refusal(&gmsh, &[("ordre", 2.0)]).to_string();
+    assert!(
+        message.contains("no parameter \"ordre\"") && message.contains("Did you mean \"order\"?"),
+        "{message}"
+    );
+    assert!(place.refusal(&gmsh, &[("n", f64::NAN)]).to_string().contains("cannot take n = NaN"));
+    assert!(place.refusal(&gmsh, &[("Mesh.Binary", 0.0)]).to_string().contains("no parameter"));
+    let place = Place::new("block.geo", &format!("size = 1;{BLOCK}"));
+    assert!(place.refusal(&gmsh, &[("size", 2.0)]).to_string().contains("DefineConstant[ size = ... ]"));
+}
+
+#[test]
+fn parameters_reach_gmsh_with_every_digit() {
+    let geo = BLOCK.replace("Point(3) = {2, 0, 0}", "DefineConstant[ x = 2 ]; Point(3) = {x, 0, 0}");
+    let place = Place::new("block.geo", &geo);
+    for x in [0.1 + 0.2 + 1.0, 1.0 + 1.0 / 3.0, 1e3] {
+        let mesh = read(&place.mesh(&[("x", x)]).unwrap().path).unwrap();
+        assert!(mesh.points.contains(&[x, 0.0]), "{x}");
+    }
+}
+
+#[test]
+fn a_missing_geo_is_bad_input() {
+    let place = Place::new("block.geo", BLOCK);
+    fs::remove_file(&place.geo).unwrap();
+    let error = place.refusal(&Gmsh::default(), &[]);
+    assert!(matches!(error, Error::Io { action: "read", .. }) && error.exit_code() == 2, "{error}");
+}
+
+#[test]
+fn a_missing_gmsh_is_a_fault_of_the_environment() {
+    let place = Place::new("block.geo", BLOCK);
+    for program in [PathBuf::from("no-such-gmsh"), place.folder.path().join("gmsh"), place.geo.clone()] {
+        let error = place.refusal(&Gmsh::new(&program, Duration::from_secs(20)), &[]);
+        assert!(matches!(error, Error::Program { .. }) && error.exit_code() == 4, "{error}");
+    }
+}
+
+#[test]
+fn a_gmsh_that_hangs_is_stopped() {
+    let place = Place::new("block.geo", BLOCK);
+    impostor(&place, "echo 'Info    : Meshing surface 1'; exec sleep 600");
+    let start = Instant::now();
+    let error =
+        place.refusal(&Gmsh::new(place.folder.path().join("impostor"), Duration::from_millis(500)), &[]);
+    assert!(start.elapsed() < Duration::from_secs(60));
+    assert!(error.exit_code() == 4, "{error}");
+    assert!(
+        error.to_string().contains("still running after 0.5 s")
+            && error.to_string().contains("Meshing surface 1"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_gmsh_that_is_killed_or_talks_without_end_is_no_danger() {
+    let place = Place::new("block.geo", BLOCK);
+    let error = place.refusal(&impostor(&place, "kill -9 $$"), &[]);
+    assert!(error.exit_code() == 4 && error.to_string().contains("was killed by signal 9"), "{error}");
+    // far more than a pipe holds
+    let error = place.refusal(&impostor(&place, "seq 1 100000; seq 1 100000 >&2; exit 3"), &[]);
+    assert!(error.exit_code() == 2 && error.to_string().contains("exit code 3"), "{error}");
+    let error = place.refusal(&impostor(&place, "exit 0"), &[]);
+    assert!(error.to_string().contains("wrote no mesh"), "{error}");
+}
+
+#[test]
+fn options_of_the_user_do_not_change_the_mesh() {
+    let place = Place::new("block.geo", BLOCK);
+    let home = place.folder.path();
+    place.write(".gmshrc", "Mesh.ElementOrder = 2; Mesh.Binary = 0; Error(\"read\");");
+    let through = impostor(&place, &format!("export HOME='{}'; exec gmsh \"$@\"", home.display()));
+    check_block(&read(&place.mesh_with(&through, &[]).unwrap().path).unwrap(), false);
+}
+
+#[test]
+fn jobs_keep_their_order_and_the_first_error_counts() {
+    let place = Place::new("block.geo", BLOCK);
+    let jobs: Vec<Job> = (1..=6).map(|n| place.job(&[("n", f64::from(n))])).collect();
+    let meshed = mesh_all(&Gmsh::default(), &place.cache(), &jobs).unwrap();
+    for (n, meshed) in (1..).zip(&meshed) {
+        let mesh = read(&meshed.path).unwrap();
+        assert_eq!(edges(&mesh, "bottom").len(), 2 * n);
+    }
+    let mut jobs = jobs;
+    jobs[2].geo = Path::new("first.geo").into();
+    jobs[4].geo = Path::new("second.geo").into();
+    let error = mesh_all(&Gmsh::default(), &place.cache(), &jobs).unwrap_err();
+    assert!(error.to_string().contains("first.geo"), "{error}");
+}
