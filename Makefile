@@ -68,6 +68,11 @@ lint:             ## format and clippy, warnings are errors
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
 
+docs: $(SCENES)   ## renew the pictures of the README
+	cp results/compression/pictures/coupling_joint.png docs/compression_coupling.png
+	cp results/compression/pictures/principal_stress.png docs/compression_stress.png
+	cp results/cantilever/pictures/traction_joint.png docs/cantilever_traction.png
+
 clean:            ## remove everything made here: results, build, Python environment
 	rm -rf results .venv
 	cargo clean
@@ -79,4 +84,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 16
 
-.PHONY: all tools build test lint clean help
+.PHONY: all tools build test lint docs clean help
