@@ -30,7 +30,8 @@ results/$1/.checked: results/$1/.solved pipeline/check_outputs.py $(VENV)
 	$(PYTHON) pipeline/check_outputs.py $3 results/$1
 	@touch $$@
 
-results/$1/.drawn: results/$1/.checked $(patsubst %,results/%/.checked,$4) pipeline/draw.py $(wildcard geo/$2/draw.args)
+results/$1/.drawn: results/$1/.checked $(patsubst %,results/%/.checked,$4)
+results/$1/.drawn: pipeline/draw.py pipeline/page.py $(wildcard geo/$2/draw.args)
 	$(PYTHON) pipeline/draw.py $3 results/$1 \
 	    $(foreach run,$4,--compare $(run:$2_%=%)=results/$(run)) $(addprefix @,$(wildcard geo/$2/draw.args))
 	@touch $$@
