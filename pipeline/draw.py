@@ -93,7 +93,7 @@ def draw_principal_stress(results, title, units):
     room = max(room, np.sqrt(np.median(area)))
     size = np.abs(principal).max(axis=1)
     usual = np.percentile(size, 98) or size.max() or 1.0
-    length = 0.95 * room / usual  # of an arm, per stress
+    length = 0.8 * room / usual  # of an arm, per stress
 
     subtitle = "principal stresses in the plane, at the centres of the cells"
     sheet = Page(page.frame(meshes), title, subtitle, key=page.KEY)
