@@ -63,22 +63,36 @@ struct Solution {
     backward_error: f64,
 }
 
-/// Applied loads against reactions at the last increment [force].
-#[derive(Debug, Clone, Copy, Serialize)]
+/// Applied loads against reactions at the last increment.
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct Balance {
-    load: [f64; 2],
-    reaction: [f64; 2],
+    #[serde(flatten)]
+    whole: Forces,
     /// |load + reaction| over the sum of all nodal loads and reactions, by magnitude.
     imbalance: f64,
+    /// The same by subdomain; what is left there crosses its joints.
+    subdomains: IndexMap<String, Forces>,
+}
+
+/// Resultants in x and y [force].
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Forces {
+    load: [f64; 2],
+    reaction: [f64; 2],
 }
 
 /// Sums loads and reactions.
 pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
     let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
-    let (load, reaction) = (sum(force), sum(reactions));
+    let whole = Forces { load: sum(force), reaction: sum(reactions) };
+    let subdomains = model.bodies.iter().enumerate().map(|(b, body)| {
+        let dofs = model.dofs_of(b);
+        (body.name.clone(), Forces { load: sum(&force[dofs.clone()]), reaction: sum(&reactions[dofs]) })
+    });
     let scale: f64 = force.iter().chain(reactions).map(|f| f.abs()).sum();
-    let rest = (load[0] + reaction[0]).hypot(load[1] + reaction[1]);
-    Balance { load, reaction, imbalance: if scale > 0.0 { rest / scale } else { 0.0 } }
+    let rest = (whole.load[0] + whole.reaction[0]).hypot(whole.load[1] + whole.reaction[1]);
+    let imbalance = if scale > 0.0 { rest / scale } else { 0.0 };
+    Balance { whole, imbalance, subdomains: subdomains.collect() }
 }
 
 /// Gathers the summary.
