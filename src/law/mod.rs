@@ -4,9 +4,11 @@
 //! way from the old jump to the new one is straight; a law whose answer depends on the way divides it (`Stepping`).
 
 mod admissible;
+mod balance;
 mod coulomb;
 mod cracking;
 mod elastic;
+pub mod path;
 
 pub use admissible::Inadmissible;
 pub use coulomb::Coulomb;

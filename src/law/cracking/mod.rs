@@ -13,7 +13,13 @@
 //! modes; the shapes S, the factors of f and the work follow the literature it cites.
 
 mod check;
+mod flow;
+mod march;
+mod nested;
+mod newton;
+mod substep;
 mod surface;
+mod tangent;
 
 pub use surface::Strength;
 
@@ -22,6 +28,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Response, State, Stepping, Unresolved};
+use substep::Lengths;
 use surface::Surface;
 
 /// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
@@ -86,17 +93,49 @@ impl Cracking {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        _stepping: Stepping,
+        stepping: Stepping,
     ) -> Result<Response, Unresolved> {
-        let (kn, kt) = (self.normal_stiffness, self.tangential_stiffness);
-        let step = jump - old.jump;
-        let traction = old.traction + Vector2::new(kn * step.x, kt * step.y);
-        Ok(Response {
-            traction,
-            stiffness: nalgebra::Matrix2::new(kn, 0.0, 0.0, kt),
-            state: State { jump, traction, status: 0, ..*old },
-            dissipation: 0.0,
-            dissipation_gradient: Vector2::zeros(),
-        })
+        let surface = Surface::new(self);
+        match stepping {
+            Stepping::Tolerance(tolerance) => surface.march(jump, old, Lengths::Controlled(tolerance, None)),
+            Stepping::BackwardEuler(steps) => Ok(surface.march_euler(jump, old, steps)),
+        }
+    }
+
+    /// The answer under error control, with the lengths of its sub-steps appended to `lengths`.
+    pub fn respond_recording(
+        &self,
+        jump: Vector2<f64>,
+        old: &State,
+        tolerance: f64,
+        lengths: &mut Vec<f64>,
+    ) -> Result<Response, Unresolved> {
+        Surface::new(self).march(jump, old, Lengths::Controlled(tolerance, Some(lengths)))
+    }
+
+    /// The answer in sub-steps of given lengths, the last one up to the jump: the map whose exact derivative is the
+    /// stiffness. Error control chooses these lengths anew for every jump, which the stiffness leaves out.
+    pub fn respond_replaying(
+        &self,
+        jump: Vector2<f64>,
+        old: &State,
+        lengths: &[f64],
+    ) -> Result<Response, Unresolved> {
+        Surface::new(self).march(jump, old, Lengths::Given(lengths))
+    }
+
+    /// What separates two states, as an error of the traction [stress]: in traction, strength and jump.
+    pub(super) fn misfit(&self, a: &State, b: &State) -> f64 {
+        let surface = Surface::new(self);
+        let loss = (surface.chi0 * surface.per_gf_i).max(surface.c0 * surface.per_gf_iia);
+        (a.traction - b.traction)
+            .amax()
+            .max((a.fracture_work - b.fracture_work).abs() * loss)
+            .max((a.jump - b.jump).amax() * loss * surface.scale())
+    }
+
+    /// The bound of the local error of a second-order step under this tolerance [stress].
+    pub(super) fn local_bound(&self, tolerance: f64) -> f64 {
+        Surface::new(self).local_bound(tolerance)
     }
 }

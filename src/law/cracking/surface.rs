@@ -53,6 +53,7 @@ pub(super) struct Hyperbola {
     pub c: f64,
     pub t: f64,
     pub b: f64,
+    pub dchi: f64,
     pub dc: f64,
     pub dt: f64,
     pub db: f64,
@@ -117,7 +118,7 @@ impl Surface {
             (0.0, 0.0)
         };
         let b = (c - chi * t).max(0.0);
-        Hyperbola { chi, c, t, b, dc, dt, db: dc - dchi * t - chi * dt, fc, dfc }
+        Hyperbola { chi, c, t, b, dchi, dc, dt, db: dc - dchi * t - chi * dt, fc, dfc }
     }
 
     /// Dilatancy factor f_σ and its derivative by σ, for σ < 0. No quotient is formed for σ_dil = 0.
@@ -136,9 +137,14 @@ impl Surface {
 }
 
 impl Hyperbola {
+    /// s = √(τ² + b²).
+    pub fn root(&self, tau: f64) -> f64 {
+        (tau * tau + self.b * self.b).sqrt()
+    }
+
     /// F(σ, τ): positive outside [stress].
     pub fn hyperbola(&self, sigma: f64, tau: f64) -> f64 {
-        tau.hypot(self.b) - (self.c - sigma * self.t)
+        self.root(tau) - (self.c - sigma * self.t)
     }
 
     /// σ on the hyperbola at τ, free of cancellation near the vertex.

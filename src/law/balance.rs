@@ -1,0 +1,138 @@
+//! The jump at which a law point carries what is prescribed, component by component.
+//!
+//! A prescribed jump is taken as it is. A prescribed traction is an equation for its component of the jump: Newton
+//! with the law's own stiffness, kept between the last jumps that gave too little and too much.
+
+use nalgebra::{Matrix2, Vector2};
+
+use super::{Law, Response, State, Stepping};
+
+/// What is prescribed of one component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Target {
+    /// The jump [length].
+    Jump(f64),
+    /// The traction [stress].
+    Traction(f64),
+}
+
+/// A prescribed traction is met to this, relative to traction and strength.
+const MET: f64 = 1e-12;
+/// Below that, iterations go on only while each divides what is left by this.
+const GAIN: f64 = 4.0;
+/// It is accepted to this when rounding forbids more.
+const NEARLY_MET: f64 = 1e-7;
+const ITERATIONS: usize = 100;
+/// Halvings of a Newton correction that makes things worse.
+const HALVINGS: usize = 12;
+
+/// The state that satisfies both targets, reached in a straight line from the old one.
+pub(super) fn balance(
+    law: &Law,
+    old: &State,
+    targets: [Target; 2],
+    stepping: Stepping,
+) -> Result<State, String> {
+    let respond = |jump| law.respond(jump, old, stepping).map_err(|unresolved| unresolved.to_string());
+    match targets {
+        [Target::Jump(n), Target::Jump(t)] => Ok(respond(Vector2::new(n, t))?.state),
+        [Target::Traction(sigma), Target::Traction(tau)] => both(law, old, Vector2::new(sigma, tau), respond),
+        [Target::Traction(sigma), Target::Jump(t)] => {
+            one(law, old, 0, sigma, |x| respond(Vector2::new(x, t)))
+        }
+        [Target::Jump(n), Target::Traction(tau)] => one(law, old, 1, tau, |x| respond(Vector2::new(n, x))),
+    }
+}
+
+fn strength(law: &Law, old: &State) -> f64 {
+    law.strength(&State { fracture_work: 0.0, ..*old })
+        .map_or(0.0, |strength| strength.cohesion.max(strength.tensile_strength))
+}
+
+/// Component `i` of the jump for a traction there.
+fn one(
+    law: &Law,
+    old: &State,
+    i: usize,
+    target: f64,
+    respond: impl Fn(f64) -> Result<Response, String>,
+) -> Result<State, String> {
+    let stiffness = law.elastic_stiffness()[i];
+    let scale = target.abs().max(old.traction[i].abs()).max(strength(law, old));
+    let mut x = old.jump[i];
+    let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut reach = scale / stiffness;
+    let mut best = (f64::INFINITY, *old);
+    for _ in 0..ITERATIONS {
+        let response = respond(x)?;
+        let over = response.traction[i] - target;
+        let gain = over.abs() * GAIN <= best.0;
+        if over.abs() < best.0 {
+            best = (over.abs(), response.state);
+        }
+        if over == 0.0 || (best.0 <= MET * scale && !gain) {
+            return Ok(best.1);
+        }
+        if over > 0.0 {
+            hi = x
+        } else {
+            lo = x
+        }
+        let newton = x - over / response.stiffness[(i, i)];
+        let fallback = match (lo.is_finite(), hi.is_finite()) {
+            (true, true) => 0.5 * (lo + hi),
+            (true, false) => lo + reach,
+            _ => hi - reach,
+        };
+        let next =
+            if newton > lo && newton < hi && response.stiffness[(i, i)] > 0.0 { newton } else { fallback };
+        if !(lo.is_finite() && hi.is_finite()) {
+            reach *= 2.0;
+        }
+        if next == x || !next.is_finite() {
+            break;
+        }
+        x = next;
+    }
+    let rounding = 4.0 * f64::EPSILON * stiffness * x.abs();
+    if best.0 <= NEARLY_MET * scale + rounding {
+        return Ok(best.1);
+    }
+    let component = ["traction_n", "traction_t"][i];
+    Err(format!("the point cannot carry {component} = {target:e}; nearest {:e}", best.1.traction[i]))
+}
+
+/// Both components of the jump for a traction.
+fn both(
+    law: &Law,
+    old: &State,
+    target: Vector2<f64>,
+    respond: impl Fn(Vector2<f64>) -> Result<Response, String>,
+) -> Result<State, String> {
+    let scale = target.amax().max(old.traction.amax()).max(strength(law, old));
+    let [kn, kt] = law.elastic_stiffness();
+    let elastic = target - old.traction;
+    let mut jump = old.jump + Vector2::new(elastic.x / kn, elastic.y / kt);
+    let mut response = respond(jump)?;
+    for _ in 0..ITERATIONS {
+        let over = response.traction - target;
+        if over.amax() <= MET * scale {
+            return Ok(response.state);
+        }
+        let Some(inverse): Option<Matrix2<f64>> = response.stiffness.try_inverse() else { break };
+        let correction = inverse * over;
+        let mut part = 1.0;
+        let better = (0..HALVINGS).find_map(|_| {
+            let trial = respond(jump - correction * part).ok()?;
+            part *= 0.5;
+            ((trial.traction - target).norm() < over.norm()).then_some(trial)
+        });
+        let Some(next) = better else { break };
+        jump = next.state.jump;
+        response = next;
+    }
+    if (response.traction - target).amax() <= NEARLY_MET * scale {
+        return Ok(response.state);
+    }
+    Err(format!("the point cannot carry the traction [{:e}, {:e}]", target.x, target.y))
+}

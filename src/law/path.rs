@@ -1,0 +1,259 @@
+//! One law point driven along a program of segments, each component by displacement or by stress.
+//!
+//! ```json
+//! { "program": [ { "n": { "control": "stress", "start": 0, "end": -5 },
+//!                  "t": { "control": "displacement", "start": 0, "end": 0 }, "points": 2 } ],
+//!   "initial": { "u_n": 0, "u_t": 0, "up_n": 0, "up_t": 0, "W": 0 } }
+//! ```
+//!
+//! Segment k runs linearly over s in [k, k + 1]; a row is stored at its start and at `points` equally spaced s. Other
+//! keys of the file are ignored. Where stress is prescribed the jump is an unknown, so the way between two rows is not
+//! straight: it is divided by the same error control as the law's own sub-steps.
+
+use std::io::{self, Write};
+
+use nalgebra::Vector2;
+use serde::Deserialize;
+
+use super::balance::{Target, balance};
+use super::{Law, State, Stepping, Strength};
+
+/// A path as read from its file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Path {
+    /// Segments, one after the other.
+    pub program: Vec<Segment>,
+    /// Where the point starts; by default sound, at rest, under the interface's initial traction.
+    #[serde(default)]
+    pub initial: Option<Initial>,
+}
+
+/// A straight piece of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+pub struct Segment {
+    /// Normal component.
+    pub n: Control,
+    /// Tangential component.
+    pub t: Control,
+    /// Rows stored after the start, equally spaced.
+    pub points: usize,
+}
+
+/// What is prescribed of one component, and its values at the ends of the segment.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Control {
+    /// Displacement (the jump) or stress (the traction).
+    pub control: Controlled,
+    /// Value at the start; it must be the value reached before.
+    pub start: f64,
+    /// Value at the end.
+    pub end: f64,
+}
+
+/// The quantity that is prescribed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Controlled {
+    /// The component of the jump.
+    Displacement,
+    /// The component of the traction.
+    Stress,
+}
+
+/// State at the start of a program.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Initial {
+    /// Normal jump [length].
+    pub u_n: f64,
+    /// Tangential jump [length].
+    pub u_t: f64,
+    /// Irreversible normal jump [length].
+    pub up_n: f64,
+    /// Irreversible tangential jump [length].
+    pub up_t: f64,
+    /// Work spent on fracture [stress × length].
+    #[serde(rename = "W")]
+    pub work: f64,
+}
+
+/// A stored point of the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Segment number plus the fraction of it.
+    pub s: f64,
+    /// Jump, traction, irreversible jump, fracture work and status there.
+    pub state: State,
+    /// Strength there; `None` for the elastic law.
+    pub strength: Option<Strength>,
+}
+
+/// Why a path ended early.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PathError {
+    /// The path asks for something that cannot start.
+    #[error("{key}: {what}; {cure}")]
+    Program {
+        /// The key to blame, such as `program[1].n.start`.
+        key: String,
+        /// What is wrong.
+        what: String,
+        /// What would have been right.
+        cure: String,
+    },
+    /// The law has no answer beyond some point.
+    #[error("no equilibrium at s = {s:.6}: {reason}")]
+    NoEquilibrium {
+        /// Where on the path.
+        s: f64,
+        /// Why.
+        reason: String,
+        /// The rows up to there.
+        rows: Vec<Row>,
+    },
+}
+
+/// Columns of the CSV.
+pub const COLUMNS: &str = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,jump_n_plastic,jump_t_plastic,\
+                           tensile_strength,cohesion,tan_friction,status";
+
+/// A prescribed value may miss the value reached before by this, relative to the segment's values.
+const JOINT: f64 = 1e-9;
+/// A way under stress control is not divided below this part of the distance between two rows.
+const SHORTEST: f64 = 1e-7;
+/// Local errors below this part of the cohesion are rounding.
+const ROUNDING: f64 = 1e-11;
+
+/// Drives a point of `law` from `start` (the interface's initial state) along a path; the first row is the start.
+pub fn drive(law: &Law, path: &Path, start: &State, stepping: Stepping) -> Result<Vec<Row>, PathError> {
+    let mut state = match &path.initial {
+        None => *start,
+        Some(Initial { u_n, u_t, up_n, up_t, work }) => {
+            law.state_at(Vector2::new(*u_n, *u_t), Vector2::new(*up_n, *up_t), *work).map_err(|refused| {
+                PathError::Program { key: "initial".into(), what: refused.what, cure: refused.cure }
+            })?
+        }
+    };
+    let row = |s: f64, state: &State| Row { s, state: *state, strength: law.strength(state) };
+    let mut rows = vec![row(0.0, &state)];
+    let mut length = 1.0; // of the next division under stress control, per row
+    for (k, segment) in path.program.iter().enumerate() {
+        segment.check(k, &state)?;
+        for point in 0..segment.points {
+            let at = |part: f64| segment.target((point as f64 + part) / segment.points as f64);
+            state = between_rows(law, &state, at, stepping, &mut length).map_err(|(part, reason)| {
+                let s = k as f64 + (point as f64 + part) / segment.points as f64;
+                PathError::NoEquilibrium { s, reason, rows: rows.clone() }
+            })?;
+            rows.push(row(k as f64 + (point + 1) as f64 / segment.points as f64, &state));
+        }
+    }
+    Ok(rows)
+}
+
+/// Writes the rows as CSV, the header first; the elastic law leaves the strength columns empty.
+pub fn write_csv(rows: &[Row], mut out: impl Write) -> io::Result<()> {
+    writeln!(out, "{COLUMNS}")?;
+    for Row { s, state, strength } in rows {
+        write!(out, "{s},{:e},{:e}", state.jump.x, state.jump.y)?;
+        write!(out, ",{:e},{:e},{:e}", state.traction.x, state.traction.y, state.fracture_work)?;
+        write!(out, ",{:e},{:e}", state.jump_plastic.x, state.jump_plastic.y)?;
+        match strength {
+            Some(Strength { tensile_strength, cohesion, tan_friction }) => {
+                write!(out, ",{tensile_strength:e},{cohesion:e},{tan_friction:e}")?
+            }
+            None => write!(out, ",,,")?,
+        }
+        writeln!(out, ",{}", state.status)?;
+    }
+    Ok(())
+}
+
+impl Segment {
+    /// What is prescribed at a fraction of the segment.
+    fn target(&self, fraction: f64) -> [Target; 2] {
+        [self.n, self.t].map(|Control { control, start, end }| {
+            let value = if fraction >= 1.0 { end } else { start + fraction * (end - start) };
+            match control {
+                Controlled::Displacement => Target::Jump(value),
+                Controlled::Stress => Target::Traction(value),
+            }
+        })
+    }
+
+    /// The segment must have points, finite values, and begin where the point is.
+    fn check(&self, k: usize, state: &State) -> Result<(), PathError> {
+        let refuse = |key: &str, what: String, cure: &str| {
+            Err(PathError::Program { key: format!("program[{k}].{key}"), what, cure: cure.into() })
+        };
+        if self.points == 0 {
+            return refuse("points", "0 points".into(), "it must be 1 or more");
+        }
+        for (i, (name, control)) in [("n", self.n), ("t", self.t)].into_iter().enumerate() {
+            let reached = match control.control {
+                Controlled::Displacement => state.jump[i],
+                Controlled::Stress => state.traction[i],
+            };
+            if !(control.start.is_finite() && control.end.is_finite()) {
+                return refuse(&format!("{name}.end"), "not a finite number".into(), "give a number");
+            }
+            let size = control.start.abs().max(control.end.abs()).max(reached.abs());
+            if (control.start - reached).abs() > JOINT * size {
+                return refuse(
+                    &format!("{name}.start"),
+                    format!("{:e}, but the point is at {reached:e} there", control.start),
+                    "begin where the segment before ends, or at the initial state",
+                );
+            }
+        }
+        Ok(())
+    }
+}
+
+/// From one row to the next; `length` is the division under stress control, kept from row to row.
+fn between_rows(
+    law: &Law,
+    from: &State,
+    at: impl Fn(f64) -> [Target; 2],
+    stepping: Stepping,
+    length: &mut f64,
+) -> Result<State, (f64, String)> {
+    let straight = at(1.0).iter().all(|target| matches!(target, Target::Jump(_)));
+    let (tolerance, strength) = match (law, stepping) {
+        (Law::Cracking(law), Stepping::Tolerance(tolerance)) if !straight => (tolerance, law),
+        (_, Stepping::BackwardEuler(steps)) if !straight => {
+            let mut state = *from;
+            for step in 1..=steps.max(1) {
+                let part = step as f64 / steps.max(1) as f64;
+                state = balance(law, &state, at(part), Stepping::BackwardEuler(1))
+                    .map_err(|reason| (part, reason))?;
+            }
+            return Ok(state);
+        }
+        _ => return balance(law, from, at(1.0), stepping).map_err(|reason| (1.0, reason)),
+    };
+
+    let bound = strength.local_bound(tolerance).max(ROUNDING * strength.cohesion);
+    let mut state = *from;
+    let mut done = 0.0;
+    while done < 1.0 {
+        let part = length.min(1.0 - done);
+        let end = if part >= 1.0 - done { 1.0 } else { done + part };
+        let go = |from: &State, to: f64| balance(law, from, at(to), stepping);
+        let whole = go(&state, end);
+        let halves = go(&state, 0.5 * (done + end)).and_then(|middle| go(&middle, end));
+        let ratio = match (&whole, &halves) {
+            (Ok(whole), Ok(halves)) => strength.misfit(whole, halves) / bound,
+            _ => f64::INFINITY,
+        };
+        let shortest = part <= SHORTEST;
+        if ratio <= 1.0 || shortest {
+            state = halves.map_err(|reason| (end, reason))?;
+            done = end;
+        }
+        let factor = if shortest { 5.0 } else { (0.85 / ratio.cbrt()).clamp(0.2, 5.0) };
+        *length = (part * factor).min(1.0);
+    }
+    Ok(state)
+}
