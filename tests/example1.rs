@@ -19,6 +19,7 @@ use midplane::shape::Shape;
 
 const P: f64 = 10.0;
 const E: f64 = 1e4;
+const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
 const PAIRS: [(usize, usize); 4] = [(5, 8), (7, 12), (1, 37), (9, 9)];
 
 struct Case {
@@ -32,7 +33,7 @@ struct Case {
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
+    for shape in SHAPES {
         for (coupling, quadrature) in
             [("projected", "gauss"), ("pointwise", "gauss"), ("pointwise", "lobatto")]
         {
@@ -104,7 +105,7 @@ fn layers_that_spread_alike_slide_nowhere() {
     for (plane, e_y, e_x) in
         [("strain", -P * (1.0 - nu * nu) / E, P * nu * (1.0 + nu) / E), ("stress", -P / E, P * nu / E)]
     {
-        for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
+        for shape in SHAPES {
             for pair in PAIRS {
                 let flat = |x: f64, y: f64| [x, y];
                 let lower = rectangle(&even(0.0, w, pair.0), &even(0.0, h1, 3), shape, flat);

@@ -21,10 +21,12 @@ pub struct Side<'a> {
 /// An open chain of edges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Point numbers of the edge ends in order, one more than edges.
-    pub ends: Vec<usize>,
-    /// Coordinates of the ends.
+    /// Point numbers: the edge ends in order, one more than edges, then the mid-nodes of quadratic edges in order.
+    pub nodes: Vec<usize>,
+    /// Coordinates of the nodes.
     pub points: Vec<[f64; 2]>,
+    /// For every edge the place of its mid-node in `nodes`, if it has one.
+    pub mids: Vec<Option<usize>>,
 }
 
 impl Chain {
@@ -37,12 +39,8 @@ impl Chain {
             let what = format!("{} has an edge inside its body, near {}", side.name, place(edge.nodes[0]));
             return Err(refuse(what, "a side lies on the boundary of its subdomain"));
         }
-        if side.edges.iter().any(|edge| edge.nodes[2] != edge.nodes[1]) {
-            return Err(refuse(format!("{} has quadratic edges", side.name), "mesh it with ElementOrder 1"));
-        }
         // edges by their start node: the chain follows from each end to the edge that starts there
-        let mut by_start: Vec<[usize; 2]> =
-            side.edges.iter().map(|edge| [edge.nodes[0], edge.nodes[1]]).collect();
+        let mut by_start: Vec<[usize; 3]> = side.edges.iter().map(|edge| edge.nodes).collect();
         by_start.sort_unstable();
         by_start.dedup();
         let mut by_end: Vec<usize> = by_start.iter().map(|edge| edge[1]).collect();
@@ -53,7 +51,7 @@ impl Chain {
             let what = format!("{} branches at {}", side.name, place(node));
             return Err(refuse(what, "a side is one line of edges"));
         }
-        let starts: Vec<&[usize; 2]> =
+        let starts: Vec<&[usize; 3]> =
             by_start.iter().filter(|edge| by_end.binary_search(&edge[0]).is_err()).collect();
         let Some(first) = starts.first() else {
             return Err(refuse(format!("{} is a closed loop", side.name), "join open lines"));
@@ -64,23 +62,58 @@ impl Chain {
             return Err(refuse(what, "a side is one connected line: make an interface of every piece"));
         }
         let mut ends = vec![first[0]];
+        let mut mids = Vec::new();
         while let Ok(i) = by_start.binary_search_by_key(&ends[ends.len() - 1], |edge| edge[0]) {
-            ends.push(by_start[i][1]);
+            let [_, end, mid] = by_start[i];
+            ends.push(end);
+            mids.push((mid != end).then_some(mid));
         }
-        let points = ends.iter().map(|&node| side.points[node]).collect();
-        Ok(Chain { ends, points })
+        Ok(Chain::from_parts(side.points, ends, mids))
+    }
+
+    /// From the edge ends and the mid-node of every edge, in order.
+    fn from_parts(points: &[[f64; 2]], ends: Vec<usize>, mids: Vec<Option<usize>>) -> Chain {
+        let mut nodes = ends;
+        let mids = mids
+            .into_iter()
+            .map(|mid| {
+                mid.map(|mid| {
+                    nodes.push(mid);
+                    nodes.len() - 1
+                })
+            })
+            .collect();
+        let points = nodes.iter().map(|&node| points[node]).collect();
+        Chain { nodes, points, mids }
     }
 
     /// The same chain walked the other way.
     pub(super) fn reversed(mut self) -> Chain {
-        self.ends.reverse();
-        self.points.reverse();
+        let (ends, all) = (self.edges() + 1, self.nodes.len());
+        for range in [0..ends, ends..all] {
+            self.nodes[range.clone()].reverse();
+            self.points[range].reverse();
+        }
+        self.mids.reverse();
+        for mid in self.mids.iter_mut().flatten() {
+            *mid = ends + all - 1 - *mid;
+        }
         self
     }
 
     /// Number of edges.
     pub fn edges(&self) -> usize {
-        self.ends.len() - 1
+        self.mids.len()
+    }
+
+    /// Places in `nodes` of an edge's start, end and, if it is quadratic, mid-node.
+    pub(super) fn edge(&self, e: usize) -> impl Iterator<Item = usize> {
+        [Some(e), Some(e + 1), self.mids[e]].into_iter().flatten()
+    }
+
+    /// True if every edge has a mid-node.
+    pub(super) fn is_quadratic(&self) -> bool {
+        self.mids.iter().all(Option::is_some)
     }
 }
 
@@ -101,7 +134,21 @@ mod tests {
     #[test]
     fn edges_in_any_order_become_one_chain() {
         let edges = [edge(1, 2), edge(2, 3), edge(0, 1)];
-        assert_eq!(Chain::order("joint", side(&edges)).unwrap().ends, [0, 1, 2, 3]);
+        assert_eq!(Chain::order("joint", side(&edges)).unwrap().nodes, [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn mid_nodes_stay_with_their_edges_when_the_chain_is_turned() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.5, 0.0], [1.5, 0.0]];
+        let quadratic = |nodes: [usize; 3]| Edge { nodes, cell: 0, boundary: true };
+        let edges = [quadratic([1, 2, 4]), quadratic([0, 1, 3])];
+        let chain = Chain::order("joint", Side { name: "s", points: &points, edges: &edges }).unwrap();
+        for chain in [chain.clone(), chain.reversed()] {
+            for e in 0..2 {
+                let x: Vec<f64> = chain.edge(e).map(|i| chain.points[i][0]).collect();
+                assert_eq!(x[2], 0.5 * (x[0] + x[1]));
+            }
+        }
     }
 
     #[test]

@@ -12,8 +12,7 @@ const AFTER: f64 = 1e-9;
 /// Arc lengths of the grid's nodes, ascending, from 0 to the length of C.
 pub(super) fn nodes(midplane: &Midplane) -> Vec<f64> {
     let length = midplane.length;
-    let a = within(&midplane.s_a, length);
-    let b = within(&midplane.s_b, length);
+    let [a, b] = midplane.ends().map(|s| within(s, length));
     if starts_at_the_far_end(midplane, &a, &b) {
         let mirror = |s: &[f64]| -> Vec<f64> { s.iter().rev().map(|&x| length - x).collect() };
         let mut nodes = mirror(&walk(&mirror(&a), &mirror(&b), length));

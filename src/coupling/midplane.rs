@@ -20,7 +20,7 @@ pub struct Midplane {
     pub a: Chain,
     /// Side B, along the tangent.
     pub b: Chain,
-    /// Arc lengths of A's nodes along C, from the start of the common length.
+    /// Arc lengths of A's nodes along C, from the start of the common length; edge ends first, as in `a`.
     pub s_a: Vec<f64>,
     /// Arc lengths of B's nodes along C.
     pub s_b: Vec<f64>,
@@ -98,7 +98,7 @@ impl Midplane {
             *s -= start;
         }
         let lift = |chain: &Chain, s: &[f64], at: f64| {
-            let e = parent(s, at);
+            let e = parent(&s[..=chain.edges()], at);
             let x = [0, 1].map(|d| {
                 let share = (at - s[e]) / (s[e + 1] - s[e]);
                 (chain.points[e][d] - from[d]) * (1.0 - share) + (chain.points[e + 1][d] - from[d]) * share
@@ -119,13 +119,18 @@ impl Midplane {
         }
         let ((_, x_a), (_, x_b)) = ends[0];
         let origin = [0, 1].map(|d| from[d] + 0.5 * (x_a[d] + x_b[d]));
-        let segments = cut(&s_a, &s_b, length);
+        let segments = cut(&s_a[..=a.edges()], &s_b[..=b.edges()], length);
         Ok(Midplane { a, b, s_a, s_b, origin, tangent, normal, length, gap, segments })
     }
 
     /// The place in the plane at arc length `s`.
     pub fn position(&self, s: f64) -> [f64; 2] {
         [0, 1].map(|d| self.origin[d] + s * self.tangent[d])
+    }
+
+    /// Arc lengths of the edge ends of A and of B.
+    pub fn ends(&self) -> [&[f64]; 2] {
+        [&self.s_a[..=self.a.edges()], &self.s_b[..=self.b.edges()]]
     }
 
     /// R: rows n and t.

@@ -4,13 +4,15 @@
 //! coefficients: M = I, N = I.
 
 use super::{Coupling, Csr, LawPoint, Midplane, Points, jump};
-use crate::shape::{GAUSS_2, LOBATTO_2, LineRule};
+use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule};
 
-/// The rule on a linear interval.
-pub(super) fn rule(points: Points) -> LineRule {
-    match points {
-        Points::Gauss => GAUSS_2,
-        Points::Lobatto => LOBATTO_2,
+/// Two points where the jump is linear, three where it is quadratic.
+pub(super) fn rule(points: Points, quadratic: bool) -> LineRule {
+    match (points, quadratic) {
+        (Points::Gauss, false) => GAUSS_2,
+        (Points::Gauss, true) => GAUSS_3,
+        (Points::Lobatto, false) => LOBATTO_2,
+        (Points::Lobatto, true) => LOBATTO_3,
     }
 }
 
@@ -20,7 +22,8 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     let mut law_points: Vec<LawPoint> = Vec::new();
     for segment in &midplane.segments {
         let half = 0.5 * (segment.end - segment.start);
-        for &[xi, weight] in rule(points) {
+        let quadratic = midplane.a.mids[segment.edge_a].is_some() || midplane.b.mids[segment.edge_b].is_some();
+        for &[xi, weight] in rule(points, quadratic) {
             let s = segment.start + half * (1.0 + xi);
             let row = components * law_points.len();
             jump::entries(&midplane, segment.edge_a, segment.edge_b, s, |entry| {
@@ -39,11 +42,11 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
             });
         }
     }
-    let width = components * (midplane.a.ends.len() + midplane.b.ends.len());
+    let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());
     Coupling {
         components,
-        nodes_a: midplane.a.ends.clone(),
-        nodes_b: midplane.b.ends.clone(),
+        nodes_a: midplane.a.nodes.clone(),
+        nodes_b: midplane.b.nodes.clone(),
         jump: Csr::from_triplets(components * law_points.len(), width, &triplets),
         points: law_points,
         grid: Vec::new(),

@@ -4,69 +4,107 @@
 //! B_i u = Σ_q w_q φ_i(x_q) (u_B − u_A)(x_q),      M_ij = Σ_q w_q φ_i(x_q) φ_j(x_q),      G = M⁻¹ B
 //! ```
 //!
-//! q runs over quadrature points of the segments, φ_i are the continuous linear functions of the grid, and the law acts
-//! at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
+//! q runs over quadrature points of the segments, φ_i are the continuous functions of the grid (quadratic where both sides
+//! have quadratic edges, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
 
 use super::banded::Banded;
 use super::{Coupling, Csr, LawPoint, Midplane, Points, grid, jump, pointwise};
-use crate::shape::{GAUSS_2, lagrange2};
+use crate::shape::{GAUSS_2, GAUSS_3, lagrange2, lagrange3};
 
 /// Entries of G below this are dropped. Of the largest in their row.
 const NEGLIGIBLE: f64 = 1e-17;
 
 pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     let components = 2;
-    let grid = grid::nodes(&midplane);
-    let width = components * (midplane.a.ends.len() + midplane.b.ends.len());
+    let quadratic = midplane.a.is_quadratic() && midplane.b.is_quadratic();
+    let grid = Grid { ends: grid::nodes(&midplane), quadratic };
+    let (nodes, band) = (grid.nodes(), grid.order());
+    let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());
 
-    // B by rows (grid node, component), M in its band
+    // B by rows (grid node, component), M in its band; a quadratic side needs three points also on a linear grid
+    let any = midplane.a.mids.iter().chain(&midplane.b.mids).any(Option::is_some);
     let mut b = Vec::new();
-    let mut mass = vec![0.0; 2 * grid.len()];
+    let mut mass = vec![0.0; (band + 1) * nodes];
     for segment in &midplane.segments {
         let half = 0.5 * (segment.end - segment.start);
-        let cell = cell_of(&grid, segment.start + half);
-        for &[xi, weight] in GAUSS_2 {
+        let cell = grid.cell_of(segment.start + half);
+        for &[xi, weight] in if any { GAUSS_3 } else { GAUSS_2 } {
             let s = segment.start + half * (1.0 + xi);
-            let phi = functions(&grid, cell, s);
             let w = half * weight;
-            mass[2 * cell + 1] += w * phi[0] * phi[0];
-            mass[2 * cell + 2] += w * phi[0] * phi[1];
-            mass[2 * cell + 3] += w * phi[1] * phi[1];
+            let functions = grid.functions(cell, s);
+            for (i, phi_i) in functions {
+                for (j, phi_j) in functions.into_iter().filter(|&(j, phi)| j <= i && phi != 0.0) {
+                    mass[i * (band + 1) + band + j - i] += w * phi_i * phi_j;
+                }
+            }
             jump::entries(&midplane, segment.edge_a, segment.edge_b, s, |entry| {
-                for (i, phi) in phi.into_iter().enumerate() {
-                    let row = components * (cell + i) + entry.component;
+                for (i, phi) in functions.into_iter().filter(|(_, phi)| *phi != 0.0) {
+                    let row = components * i + entry.component;
                     b.push((row, components * entry.node + entry.direction, w * phi * entry.value));
                 }
             });
         }
     }
-    let b = Csr::from_triplets(components * grid.len(), width, &b);
-    let jump = solve(&Banded::factor(1, mass), &b, components, grid.len());
+    let b = Csr::from_triplets(components * nodes, width, &b);
+    let jump = solve(&Banded::factor(band, mass), &b, components, nodes);
 
     let mut law_points = Vec::new();
-    for cell in 0..grid.len() - 1 {
-        let half = 0.5 * (grid[cell + 1] - grid[cell]);
-        for &[xi, weight] in pointwise::rule(points) {
-            let (n, _) = lagrange2(xi);
-            let s = grid[cell] + half * (1.0 + xi);
+    for cell in 0..grid.ends.len() - 1 {
+        let half = 0.5 * (grid.ends[cell + 1] - grid.ends[cell]);
+        for &[xi, weight] in pointwise::rule(points, quadratic) {
+            let s = grid.ends[cell] + half * (1.0 + xi);
             law_points.push(LawPoint {
                 weight: half * weight,
                 s,
                 position: midplane.position(s),
                 rotation: midplane.rotation(),
-                interpolation: [(cell, n[0]), (cell + 1, n[1]), (0, 0.0)],
+                interpolation: grid.functions(cell, s),
             });
         }
     }
     Coupling {
         components,
-        nodes_a: midplane.a.ends.clone(),
-        nodes_b: midplane.b.ends.clone(),
+        nodes_a: midplane.a.nodes.clone(),
+        nodes_b: midplane.b.nodes.clone(),
         jump,
         points: law_points,
-        grid,
+        grid: grid.ends,
         midplane,
+    }
+}
+
+/// The grid of the mid-plane: linear cells, or quadratic ones with a node in their middle. Nodes are numbered along C.
+struct Grid {
+    ends: Vec<f64>,
+    quadratic: bool,
+}
+
+impl Grid {
+    /// Polynomial order of a cell, which is also the half band width of its mass matrix.
+    fn order(&self) -> usize {
+        if self.quadratic { 2 } else { 1 }
+    }
+
+    fn nodes(&self) -> usize {
+        self.order() * (self.ends.len() - 1) + 1
+    }
+
+    /// The cell that holds arc length `s`.
+    fn cell_of(&self, s: f64) -> usize {
+        self.ends.partition_point(|&node| node <= s).clamp(1, self.ends.len() - 1) - 1
+    }
+
+    /// Nodes and functions of a cell at arc length `s`; on linear cells the third has the value zero.
+    fn functions(&self, cell: usize, s: f64) -> [(usize, f64); 3] {
+        let xi = 2.0 * (s - self.ends[cell]) / (self.ends[cell + 1] - self.ends[cell]) - 1.0;
+        if self.quadratic {
+            let (n, _) = lagrange3(xi);
+            [(2 * cell, n[0]), (2 * cell + 2, n[1]), (2 * cell + 1, n[2])]
+        } else {
+            let (n, _) = lagrange2(xi);
+            [(cell, n[0]), (cell + 1, n[1]), (0, 0.0)]
+        }
     }
 }
 
@@ -99,15 +137,4 @@ fn solve(mass: &Banded, b: &Csr, components: usize, nodes: usize) -> Csr {
     }
     triplets.retain(|&(i, _, value)| value.abs() > NEGLIGIBLE * largest[i]);
     Csr::from_triplets(b.rows(), b.width, &triplets)
-}
-
-/// The grid cell that holds arc length `s`.
-fn cell_of(grid: &[f64], s: f64) -> usize {
-    grid.partition_point(|&node| node <= s).clamp(1, grid.len() - 1) - 1
-}
-
-/// The two functions of a cell at arc length `s`.
-fn functions(grid: &[f64], cell: usize, s: f64) -> [f64; 2] {
-    let xi = 2.0 * (s - grid[cell]) / (grid[cell + 1] - grid[cell]) - 1.0;
-    lagrange2(xi).0
 }

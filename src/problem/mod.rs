@@ -109,7 +109,7 @@ fn join(scene: &Scene, model: &Model, name: &str, interface: &scene::Interface) 
 /// K_N h/E of a joint: the larger of the two edges meeting, the smaller E, maximum along the joint.
 pub fn stiffness_number(model: &Model, joint: &Joint, law: &Law) -> f64 {
     let midplane = &joint.coupling.midplane;
-    let edge = |s: &[f64], e: usize| s[e + 1] - s[e];
+    let edge = |s: &[f64], e: usize| s[e + 1] - s[e]; // edge ends come first
     let lengths =
         midplane.segments.iter().map(|g| edge(&midplane.s_a, g.edge_a).max(edge(&midplane.s_b, g.edge_b)));
     let young = joint.bodies.map(|body| model.bodies[body].elasticity.young);

@@ -20,7 +20,7 @@ pub fn graded(start: f64, end: f64, n: usize, ratio: f64) -> Vec<f64> {
     sums.iter().map(|s| start + (end - start) * s / sums[n]).collect()
 }
 
-/// A rectangle of T3 (alternating diagonals) or Q4, mapped into the plane by `place`.
+/// A rectangle of triangles (alternating diagonals) or quadrilaterals, mapped into the plane by `place`.
 ///
 /// ```text
 ///   ┌── top ──┐      groups: bottom, right, top, left (curves), corner (point 0), body (surface)
@@ -28,6 +28,45 @@ pub fn graded(start: f64, end: f64, n: usize, ratio: f64) -> Vec<f64> {
 ///   └ bottom ─┘
 /// ```
 pub fn rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {
+    match shape {
+        Shape::Triangle6 => quadratic(linear_rectangle(xs, ys, Shape::Triangle3, place), shape),
+        Shape::Quadrilateral8 => quadratic(linear_rectangle(xs, ys, Shape::Quadrilateral4, place), shape),
+        _ => linear_rectangle(xs, ys, shape, place),
+    }
+}
+
+/// The mesh with mid-nodes on the straight edges.
+fn quadratic(mesh: Mesh, shape: Shape) -> Mesh {
+    let mut points = mesh.points.clone();
+    let mut mids = std::collections::HashMap::new();
+    let mut mid = |a: usize, b: usize| {
+        *mids.entry((a.min(b), a.max(b))).or_insert_with(|| {
+            let (p, q) = (points[a], points[b]);
+            points.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
+            points.len() - 1
+        })
+    };
+    let mut cells = Cells::default();
+    for c in 0..mesh.cells.len() {
+        let mut nodes = mesh.cells.nodes(c).to_vec();
+        let corners = nodes.len();
+        for k in 0..corners {
+            nodes.push(mid(nodes[k], nodes[(k + 1) % corners]));
+        }
+        cells.push(shape, &nodes);
+    }
+    let mut groups = mesh.groups;
+    for group in groups.values_mut() {
+        if let Group::Edges(edges) = group {
+            for edge in edges {
+                edge.nodes[2] = mid(edge.nodes[0], edge.nodes[1]);
+            }
+        }
+    }
+    Mesh { file: mesh.file, points, cells, groups }
+}
+
+fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {
     let (nx, ny) = (xs.len() - 1, ys.len() - 1);
     let node = |i: usize, j: usize| j * (nx + 1) + i;
     let mut points = Vec::new();
@@ -52,12 +91,13 @@ pub fn rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) 
             }
         }
     }
+    let mut on_left = std::collections::HashMap::new();
+    for c in 0..cells.len() {
+        let nodes = cells.nodes(c);
+        (0..nodes.len()).for_each(|k| drop(on_left.insert((nodes[k], nodes[(k + 1) % nodes.len()]), c)));
+    }
     let edge = |start: usize, end: usize| {
-        let cell = (0..cells.len()).find(|&c| {
-            let nodes = cells.nodes(c);
-            (0..nodes.len()).any(|k| nodes[k] == start && nodes[(k + 1) % nodes.len()] == end)
-        });
-        Edge { nodes: [start, end, end], cell: cell.unwrap(), boundary: true }
+        Edge { nodes: [start, end, end], cell: on_left[&(start, end)], boundary: true }
     };
     let mut groups = IndexMap::new();
     let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
