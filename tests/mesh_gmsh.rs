@@ -82,11 +82,17 @@ impl Place {
 
 /// A program that stands in for gmsh: answers --version, else runs the script.
 fn impostor(place: &Place, script: &str) -> Gmsh {
-    use std::os::unix::fs::PermissionsExt;
-    let program = place.folder.path().join("impostor");
-    let text = format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo 4.8.4 >&2; exit 0; fi\n{script}\n");
-    fs::write(&program, text).expect("a script");
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("an executable script");
+    impostor_of(place, "4.8.4", script)
+}
+
+fn impostor_of(place: &Place, version: &str, script: &str) -> Gmsh {
+    let (draft, program) = (place.folder.path().join("draft"), place.folder.path().join("impostor"));
+    let text =
+        format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo {version} >&2; exit 0; fi\n{script}\n");
+    fs::write(&draft, text).expect("a script");
+    // written by another process: while a program is open for writing here, no thread may start it
+    let installed = Command::new("install").args(["-m", "755"]).args([&draft, &program]).status();
+    assert!(installed.is_ok_and(|status| status.success()));
     Gmsh::new(program, Duration::from_secs(20))
 }
 
@@ -244,13 +250,7 @@ fn a_hit_does_not_start_the_mesher_and_another_version_does() {
     assert!(!place.mesh_with(&through, &[]).unwrap().reused);
     let closed = impostor(&place, "exit 9");
     assert!(place.mesh_with(&closed, &[]).unwrap().reused);
-    let newer = place.folder.path().join("impostor");
-    fs::write(
-        &newer,
-        fs::read_to_string(&newer).unwrap().replace("4.8.4", "4.13.1").replace("exit 9", "exec gmsh \"$@\""),
-    )
-    .unwrap();
-    let newer = Gmsh::new(newer, Duration::from_secs(20));
+    let newer = impostor_of(&place, "4.13.1", "exec gmsh \"$@\"");
     assert_eq!(newer.version().unwrap(), "4.13.1");
     assert!(!place.mesh_with(&newer, &[]).unwrap().reused);
 }

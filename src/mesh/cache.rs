@@ -36,6 +36,9 @@ pub struct Meshed {
 
 /// Meshes all jobs into the folder `cache`, in parallel, in the order of the jobs. Of several errors the first counts.
 pub fn mesh_all(gmsh: &Gmsh, cache: &Path, jobs: &[Job]) -> Result<Vec<Meshed>> {
+    if !jobs.is_empty() {
+        gmsh.version()?; // asked before the jobs start, so that they do not ask all at once
+    }
     let all: Vec<Result<Meshed>> = jobs.par_iter().map(|job| mesh_one(gmsh, cache, job)).collect();
     all.into_iter().collect()
 }
@@ -85,7 +88,8 @@ fn key(sources: &Sources, job: &Job, version: &str) -> String {
     }
     for (path, content) in &sources.files {
         add(path.file_name().unwrap_or_default().as_encoded_bytes());
-        add(content.as_deref().unwrap_or(b"missing"));
+        add(&[u8::from(content.is_some())]);
+        add(content.as_deref().unwrap_or_default());
     }
     hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
 }

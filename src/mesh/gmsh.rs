@@ -3,11 +3,9 @@
 use std::ffi::OsString;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::OnceLock;
-use std::time::Duration;
-
-use wait_timeout::ChildExt;
+use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 
@@ -22,7 +20,7 @@ pub struct Gmsh {
 }
 
 /// Values handed to a .geo with -setnumber.
-pub type Parameters = [(String, f64)];
+pub(super) type Parameters = [(String, f64)];
 
 /// Settings that the reader relies on, and one thread so that the mesh does not depend on their number.
 const SETTINGS: [&str; 16] = [
@@ -45,6 +43,8 @@ const SETTINGS: [&str; 16] = [
 ];
 /// Lines of gmsh's output that an error quotes.
 const TAIL: usize = 12;
+/// How late the end of gmsh may be noticed.
+const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
 impl Default for Gmsh {
     fn default() -> Gmsh {
@@ -114,7 +114,7 @@ impl Gmsh {
             .stderr(errors)
             .spawn();
         let mut child = child.map_err(|source| self.unavailable(&source))?;
-        let waited = child.wait_timeout(self.limit);
+        let waited = wait(&mut child, self.limit);
         if !matches!(waited, Ok(Some(_))) {
             // killing fails only if it has ended by itself
             let _ = child.kill();
@@ -134,7 +134,10 @@ impl Gmsh {
                 );
                 Err(self.broken(what, "use a coarser mesh or a longer time limit"))
             }
-            Err(source) => Err(self.broken(format!("cannot be waited for: {source}"), "try again")),
+            Err(source) => Err(self.broken(
+                format!("cannot be waited for: {source}"),
+                "start midplane where SIGCHLD is not ignored",
+            )),
         }
     }
 
@@ -153,6 +156,20 @@ impl Gmsh {
 
     fn broken(&self, what: String, cure: &str) -> Error {
         Error::Program { program: self.program.display().to_string(), what, cure: cure.into() }
+    }
+}
+
+/// The exit status, or nothing if `limit` passes first. Asks now and then: a signal handler would concern all threads.
+fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus>> {
+    let start = Instant::now();
+    let mut pause = Duration::from_millis(1);
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        let Some(left) = limit.checked_sub(start.elapsed()) else { return Ok(None) };
+        std::thread::sleep(pause.min(left));
+        pause = (2 * pause).min(LONGEST_PAUSE);
     }
 }
 

@@ -1,8 +1,12 @@
 //! The mesh of one subdomain: points, cells, and groups by physical name.
 //!
-//! Everything past this room may rely on: every index is in range, every point belongs to a cell, every cell has a
-//! positive Jacobian at its corners and counts its nodes counter-clockwise, every edge of a curve group knows the cell
-//! it bounds and runs with that cell on its left.
+//! Everything past this room may rely on: every index is in range, every point is finite and belongs to a cell, every
+//! cell counts its nodes counter-clockwise and has a positive Jacobian at its nodes and integration points, no two
+//! cells lie on the same side of an edge or disagree about its mid-node, every group has members and none twice, every
+//! edge of a curve group knows the cell it bounds and runs with that cell on its left.
+//!
+//! From a geometry to a mesh: `mesh_all` (`cache`) asks what a .geo consists of (`sources`), runs `gmsh`, and keeps the
+//! file; `read` takes its bytes apart (`msh`) and builds `cells`, `edges` and `groups`.
 
 mod cache;
 mod cells;
