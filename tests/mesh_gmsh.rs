@@ -1,100 +1,20 @@
-//! Meshing with the real gmsh: every kind of cell, the cache, and all the ways in which gmsh can fail.
+//! Meshing with the real gmsh: every kind of cell, and all the ways in which gmsh can fail.
 
 #[path = "common/mesh_text.rs"]
 mod mesh_text;
+#[path = "common/place.rs"]
+mod place;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use mesh_text::{area, close, edges, keeps_its_promises, length};
-use midplane::error::{Error, Result};
-use midplane::mesh::{Gmsh, Group, Job, Mesh, Meshed, mesh_all, read};
+use midplane::error::Error;
+use midplane::mesh::{Gmsh, Group, Job, Mesh, mesh_all, read};
 use midplane::shape::Shape;
-
-/// A block 2 × 1 with n × m divisions; the right half may be recombined into quadrilaterals, and the cells quadratic.
-///
-/// ```text
-///   4 ── top ─ 5 ─ top ── 6      physical surface "body", curves "bottom", "top", "left side"
-///   │          │          │      and "middle" (2-5), point "corner" (1)
-///   1 ─ bottom 2 ─ bottom 3
-/// ```
-const BLOCK: &str = r#"
-DefineConstant[ n = {3, Name "Block/n"}, m = 2, order = 1, incomplete = 0, left = 0, right = 0 ];
-Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {2, 0, 0};
-Point(4) = {0, 1, 0}; Point(5) = {1, 1, 0}; Point(6) = {2, 1, 0};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 6}; Line(4) = {6, 5}; Line(5) = {5, 4}; Line(6) = {4, 1};
-Line(7) = {2, 5};
-Curve Loop(1) = {1, 7, 5, 6}; Curve Loop(2) = {2, 3, 4, -7};
-Plane Surface(1) = {1}; Plane Surface(2) = {2};
-Transfinite Curve{1, 2, 4, 5} = n + 1; Transfinite Curve{3, 6, 7} = m + 1; Transfinite Surface{1, 2};
-If (left) Recombine Surface{1}; EndIf
-If (right) Recombine Surface{2}; EndIf
-Mesh.ElementOrder = order; Mesh.SecondOrderIncomplete = incomplete;
-Physical Surface("body") = {1, 2}; Physical Curve("bottom") = {1, 2}; Physical Curve("top") = {4, 5};
-Physical Curve("left side") = {-6}; Physical Curve("middle") = {7}; Physical Point("corner") = {1};
-"#;
-
-/// A folder with a .geo in it.
-struct Place {
-    folder: tempfile::TempDir,
-    geo: PathBuf,
-}
-
-impl Place {
-    fn new(name: &str, text: &str) -> Place {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let geo = folder.path().join(name);
-        fs::write(&geo, text).expect("a .geo");
-        Place { folder, geo }
-    }
-
-    fn cache(&self) -> PathBuf {
-        self.folder.path().join("cache")
-    }
-
-    fn job(&self, parameters: &[(&str, f64)]) -> Job {
-        let parameters = parameters.iter().map(|(name, value)| (name.to_string(), *value)).collect();
-        Job { subdomain: "block".into(), geo: self.geo.clone(), parameters }
-    }
-
-    fn mesh_with(&self, gmsh: &Gmsh, parameters: &[(&str, f64)]) -> Result<Meshed> {
-        Ok(mesh_all(gmsh, &self.cache(), &[self.job(parameters)])?.remove(0))
-    }
-
-    fn mesh(&self, parameters: &[(&str, f64)]) -> Result<Meshed> {
-        self.mesh_with(&Gmsh::default(), parameters)
-    }
-
-    /// The error of meshing, with nothing left in the cache.
-    fn refusal(&self, gmsh: &Gmsh, parameters: &[(&str, f64)]) -> Error {
-        let error = self.mesh_with(gmsh, parameters).expect_err("meshing must fail");
-        let left = fs::read_dir(self.cache()).map_or(0, |entries| entries.count());
-        assert_eq!(left, 0, "the cache holds files after {error}");
-        error
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.folder.path().join(name), text).expect("a file beside the .geo");
-    }
-}
-
-/// A program that stands in for gmsh: answers --version, else runs the script.
-fn impostor(place: &Place, script: &str) -> Gmsh {
-    impostor_of(place, "4.8.4", script)
-}
-
-fn impostor_of(place: &Place, version: &str, script: &str) -> Gmsh {
-    let (draft, program) = (place.folder.path().join("draft"), place.folder.path().join("impostor"));
-    let text =
-        format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo {version} >&2; exit 0; fi\n{script}\n");
-    fs::write(&draft, text).expect("a script");
-    // written by another process: while a program is open for writing here, no thread may start it
-    let installed = Command::new("install").args(["-m", "755"]).args([&draft, &program]).status();
-    assert!(installed.is_ok_and(|status| status.success()));
-    Gmsh::new(program, Duration::from_secs(20))
-}
+use place::{BLOCK, Place, impostor};
 
 fn check_block(mesh: &Mesh, quadratic: bool) {
     keeps_its_promises(mesh);
@@ -209,59 +129,6 @@ fn curved_edges_follow_the_circle() {
     };
     let (coarse, fine) = (miss(4.0), miss(8.0));
     assert!(coarse < 1e-4 && fine < coarse / 12.0, "{coarse} {fine}");
-}
-
-#[test]
-fn only_what_has_changed_is_meshed_again() {
-    let place = Place::new("block.geo", &format!("Include \"sizes.geo\";\n{BLOCK}"));
-    place.write("sizes.geo", "Include \"deep.geo\"; // nested");
-    place.write("deep.geo", "a = 1;");
-    let first = place.mesh(&[]).unwrap();
-    assert!(!first.reused);
-    assert_eq!(place.mesh(&[]).unwrap(), Meshed { path: first.path.clone(), reused: true });
-    let name = first.path.file_name().unwrap().to_str().unwrap();
-    let hex = name.strip_prefix("block-").and_then(|rest| rest.strip_suffix(".msh")).unwrap();
-    assert!(hex.len() == 12 && hex.chars().all(|c| c.is_ascii_hexdigit()), "{name}");
-
-    let fresh = |what: &str, parameters: &[(&str, f64)]| {
-        let meshed = place.mesh(parameters).unwrap();
-        assert!(!meshed.reused && meshed.path != first.path, "{what}");
-        assert!(place.mesh(parameters).unwrap().reused, "{what}");
-    };
-    fresh("another parameter", &[("n", 4.0)]);
-    fresh("another value, in its last digit", &[("n", 4.000000000000001)]);
-    place.write("deep.geo", "a = 2;");
-    fresh("a nested include", &[]);
-    place.write("deep.geo", "a = 1;");
-    assert_eq!(place.mesh(&[]).unwrap(), Meshed { path: first.path.clone(), reused: true });
-    place.write("block.geo.opt", "Mesh.Algorithm = 5;");
-    fresh("options beside the .geo", &[]);
-    fs::remove_file(place.folder.path().join("block.geo.opt")).unwrap();
-    fs::write(&place.geo, format!("Include \"sizes.geo\";\n{BLOCK}\n")).unwrap();
-    fresh("the .geo", &[]);
-    let files = fs::read_dir(place.cache()).unwrap().map(|entry| entry.unwrap().file_name());
-    assert!(files.map(|name| name.into_string().unwrap()).all(|name| name.ends_with(".msh")));
-}
-
-#[test]
-fn a_hit_does_not_start_the_mesher_and_another_version_does() {
-    let place = Place::new("block.geo", BLOCK);
-    let through = impostor(&place, "exec gmsh \"$@\"");
-    assert!(!place.mesh_with(&through, &[]).unwrap().reused);
-    let closed = impostor(&place, "exit 9");
-    assert!(place.mesh_with(&closed, &[]).unwrap().reused);
-    let newer = impostor_of(&place, "4.13.1", "exec gmsh \"$@\"");
-    assert_eq!(newer.version().unwrap(), "4.13.1");
-    assert!(!place.mesh_with(&newer, &[]).unwrap().reused);
-}
-
-#[test]
-fn what_a_geo_fetches_from_elsewhere_is_meshed_every_time() {
-    let place =
-        Place::new("block.geo", &format!("name = Str(\"sizes\"); Include StrCat(name, \".geo\");\n{BLOCK}"));
-    place.write("sizes.geo", "a = 1;");
-    assert!(!place.mesh(&[]).unwrap().reused);
-    assert!(!place.mesh(&[]).unwrap().reused);
 }
 
 #[test]
@@ -428,20 +295,4 @@ fn options_of_the_user_do_not_change_the_mesh() {
     place.write(".gmshrc", "Mesh.ElementOrder = 2; Mesh.Binary = 0; Error(\"read\");");
     let through = impostor(&place, &format!("export HOME='{}'; exec gmsh \"$@\"", home.display()));
     check_block(&read(&place.mesh_with(&through, &[]).unwrap().path).unwrap(), false);
-}
-
-#[test]
-fn jobs_keep_their_order_and_the_first_error_counts() {
-    let place = Place::new("block.geo", BLOCK);
-    let jobs: Vec<Job> = (1..=6).map(|n| place.job(&[("n", f64::from(n))])).collect();
-    let meshed = mesh_all(&Gmsh::default(), &place.cache(), &jobs).unwrap();
-    for (n, meshed) in (1..).zip(&meshed) {
-        let mesh = read(&meshed.path).unwrap();
-        assert_eq!(edges(&mesh, "bottom").len(), 2 * n);
-    }
-    let mut jobs = jobs;
-    jobs[2].geo = Path::new("first.geo").into();
-    jobs[4].geo = Path::new("second.geo").into();
-    let error = mesh_all(&Gmsh::default(), &place.cache(), &jobs).unwrap_err();
-    assert!(error.to_string().contains("first.geo"), "{error}");
 }

@@ -27,6 +27,9 @@ pub(super) fn read(
     else {
         return Err(cut());
     };
+    if !cursor.holds(total.saturating_mul(2)) {
+        return Err(damaged(format!("claims {total} elements, more than the file can hold")));
+    }
     let (mut held, mut tags) = (0, TagRuns::default());
     for _ in 0..blocks {
         let (Some(dim), Some(entity), Some(gmsh_type)) = (cursor.int(), cursor.int(), cursor.int()) else {
