@@ -19,6 +19,7 @@ SCENES := $(patsubst geo/%/scene.json,%,$(wildcard geo/*/scene.json))
 variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json,$(wildcard geo/$1/*.json)))
 
 all: $(SCENES)    ## build, solve every scene of the gallery, check the results, draw the pictures
+	@echo "up to date: results/<scene>/, its pictures in results/<scene>/pictures/"
 
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
