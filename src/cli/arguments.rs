@@ -18,6 +18,7 @@ Examples:
   midplane run geo/compression            mesh, solve and write results/compression
   midplane run geo/compression -o out --set steps.0.load.upper.top.pressure=5
   midplane check geo/cantilever           sizes, densities, segments, warnings
+  midplane law geo/shear joint path.json  one point of a law along a path, as CSV
   midplane schema > geo/scene.schema.json
 
 Exit codes: 0 done; 2 bad input; 3 no equilibrium (what converged is on disk); 4 environment (no gmsh, disk full)."
@@ -60,6 +61,33 @@ Example:
         #[command(flatten)]
         common: Common,
     },
+    /// Drive one point of an interface's law along a path, CSV on standard output
+    #[command(after_help = "\
+Examples:
+  midplane law geo/shear joint path.json                  error control by the scene's law_tolerance
+  midplane law geo/shear joint path.json --tolerance 1e-6
+  midplane law geo/shear joint path.json --substeps 10    plain backward Euler
+
+A path prescribes displacement or stress, segment by segment and component by component:
+  { \"program\": [ { \"n\": { \"control\": \"stress\", \"start\": 0, \"end\": -5 },
+                   \"t\": { \"control\": \"displacement\", \"start\": 0, \"end\": 0 }, \"points\": 2 } ] }")]
+    Law {
+        /// A scene file, or the folder of a scene.json; no mesh is read
+        scene: PathBuf,
+        /// Name of the interface whose law is driven
+        interface: String,
+        /// The path, JSON
+        path: PathBuf,
+        /// Backward Euler with N steps between two stored points
+        #[arg(long, value_name = "N", conflicts_with = "tolerance")]
+        substeps: Option<NonZeroUsize>,
+        /// Error control, relative to the larger of tensile strength and cohesion
+        #[arg(long, value_name = "T", value_parser = tolerance)]
+        tolerance: Option<f64>,
+        /// Replace a value of the scene
+        #[arg(long = "set", value_name = "KEY=VALUE")]
+        settings: Vec<String>,
+    },
     /// Print the JSON Schema of scenes
     #[command(after_help = "\
 Example:
@@ -73,6 +101,13 @@ Example:
         /// bash, elvish, fish, powershell or zsh
         shell: clap_complete::Shell,
     },
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        _ => Err("it lies between 0 and 1, such as 1e-6".into()),
+    }
 }
 
 /// What all commands on a scene share.

@@ -11,6 +11,8 @@ use clap::{CommandFactory, Parser};
 use arguments::{Arguments, Command};
 
 use crate::error::{Error, Result};
+use crate::law::Stepping;
+use crate::law::path;
 use crate::run;
 use crate::scene;
 
@@ -47,6 +49,17 @@ fn act(arguments: Arguments) -> Result<()> {
             prepared.folder.keep();
             show.check(&prepared);
             Ok(())
+        }
+        Command::Law { scene, interface, path, substeps, tolerance, settings } => {
+            let stepping = match (substeps, tolerance) {
+                (Some(n), _) => Some(Stepping::BackwardEuler(n.get())),
+                (None, tolerance) => tolerance.map(Stepping::Tolerance),
+            };
+            let (rows, ended) = run::point::drive(&scene, &settings, &interface, &path, stepping)?;
+            let mut csv = Vec::new();
+            path::write_csv(&rows, &mut csv).map_err(Error::io("write", "standard output"))?;
+            print(&String::from_utf8_lossy(&csv))?;
+            ended.map_or(Ok(()), Err)
         }
         Command::Schema => print(&format!("{:#}\n", scene::scene_schema())),
         Command::Completions { shell } => {

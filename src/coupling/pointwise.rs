@@ -22,7 +22,8 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     let mut law_points: Vec<LawPoint> = Vec::new();
     for segment in &midplane.segments {
         let half = 0.5 * (segment.end - segment.start);
-        let quadratic = midplane.a.mids[segment.edge_a].is_some() || midplane.b.mids[segment.edge_b].is_some();
+        let quadratic =
+            midplane.a.mids[segment.edge_a].is_some() || midplane.b.mids[segment.edge_b].is_some();
         for &[xi, weight] in rule(points, quadratic) {
             let s = segment.start + half * (1.0 + xi);
             let row = components * law_points.len();

@@ -5,6 +5,7 @@
 mod clock;
 mod folder;
 mod march;
+pub mod point;
 mod prepare;
 mod summary;
 

@@ -150,6 +150,15 @@ impl Scene {
                 "give [normal, tangential]",
             ));
         }
+        let tolerance = interface.law_tolerance;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let path = ["interfaces", name, "law_tolerance"];
+            return Err(self.source.refuse(
+                &path,
+                format!("{tolerance} is no tolerance"),
+                "it lies between 0 and 1, such as 1e-4",
+            ));
+        }
         interface
             .law
             .check()

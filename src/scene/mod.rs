@@ -18,7 +18,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::law::Law;
+use crate::law::{LAW_TOLERANCE, Law};
 
 /// A whole problem: bodies, joints, load history, what to write.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
@@ -108,6 +108,9 @@ pub struct Interface {
     pub quadrature: Quadrature,
     /// The law.
     pub law: Law,
+    /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
+    #[serde(default = "law_tolerance")]
+    pub law_tolerance: f64,
     /// Initial traction (n, t) [stress] (paper eq. 10).
     #[serde(default)]
     pub initial_traction: [f64; 2],
@@ -271,6 +274,10 @@ pub fn split_group(name: &str) -> (&str, Option<&str>) {
 
 fn one() -> f64 {
     1.0
+}
+
+fn law_tolerance() -> f64 {
+    LAW_TOLERANCE
 }
 
 fn one_increment() -> usize {

@@ -96,8 +96,10 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
         let nodes = cells.nodes(c);
         (0..nodes.len()).for_each(|k| drop(on_left.insert((nodes[k], nodes[(k + 1) % nodes.len()]), c)));
     }
-    let edge = |start: usize, end: usize| {
-        Edge { nodes: [start, end, end], cell: on_left[&(start, end)], boundary: true }
+    let edge = |start: usize, end: usize| Edge {
+        nodes: [start, end, end],
+        cell: on_left[&(start, end)],
+        boundary: true,
     };
     let mut groups = IndexMap::new();
     let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
