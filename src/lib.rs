@@ -17,6 +17,11 @@
 //! `error`, `shape`, `law`, `mesh`, `scene`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
 //! `run`, `cli`.
 
+#![warn(missing_docs)]
+// no panic is reachable from input
+#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo, clippy::unimplemented)]
+#![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
+
 pub mod assembly;
 pub mod cli;
 pub mod continuum;

@@ -239,7 +239,7 @@ mod tests {
                 }
             }
         }
-        let side = |i: u32| if i % 2 == 0 { 2.0 / (f64::from(i) + 1.0) } else { 0.0 };
+        let side = |i: u32| if i.is_multiple_of(2) { 2.0 / (f64::from(i) + 1.0) } else { 0.0 };
         for (rule, degree) in [(rule::SQUARE_4, 3), (rule::SQUARE_9, 5)] {
             for i in 0..=degree {
                 for j in 0..=degree {

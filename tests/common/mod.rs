@@ -94,7 +94,9 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
     let mut on_left = std::collections::HashMap::new();
     for c in 0..cells.len() {
         let nodes = cells.nodes(c);
-        (0..nodes.len()).for_each(|k| drop(on_left.insert((nodes[k], nodes[(k + 1) % nodes.len()]), c)));
+        for k in 0..nodes.len() {
+            on_left.insert((nodes[k], nodes[(k + 1) % nodes.len()]), c);
+        }
     }
     let edge = |start: usize, end: usize| Edge {
         nodes: [start, end, end],
