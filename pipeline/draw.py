@@ -74,11 +74,12 @@ def draw_displacement(results, title, units):
 
 
 def outline(mesh):
-    """The boundary of a mesh as line segments."""
+    """The boundary of a mesh as polylines, so that dashes run on over its nodes."""
     edges = mesh.extract_feature_edges(
         boundary_edges=True, feature_edges=False, non_manifold_edges=False, manifold_edges=False
     )
-    return edges.points[edges.lines.reshape(-1, 3)[:, 1:], :2]
+    lines = edges.strip(join=True, max_length=edges.n_points + 1)
+    return [line.points[:, :2] for line in lines.cell]
 
 
 def draw_principal_stress(results, title, units):
@@ -112,11 +113,13 @@ def draw_principal_stress(results, title, units):
     page.save(sheet.figure, results.pictures / "principal_stress.png")
 
 
-def spread(centres, most=60):
+def spread(centres, most=32):
     """Cells, at most one per square of a grid of `most` squares along its longer side; the square's side."""
     side = np.ptp(centres, axis=0).max() / most or 1.0
-    squares = np.floor((centres - centres.min(axis=0)) / side).astype(int)
-    return np.sort(np.unique(squares, axis=0, return_index=True)[1]), side
+    place = (centres - centres.min(axis=0)) / side
+    nearest = np.argsort(np.linalg.norm(place % 1.0 - 0.5, axis=1))
+    first = np.unique(np.floor(place[nearest]).astype(int), axis=0, return_index=True)[1]
+    return nearest[first], side
 
 
 def draw_traction(results, name, label, others, exact, title, units):
@@ -187,11 +190,11 @@ def draw_coupling(results, name, interface, title, units):
         f"coupling of {name}: {edges_a} edges of A and {edges_b} of B make {len(segments)} segments, "
         + (f"{len(cells)} cells of the grid, " if len(cells) else "")
         + f"{len(law_points)} law points"
-        + (f"; the first {len(shown)} segments" if len(shown) < len(segments) else "")
     )
     bounds = (x0 - air, x1 + air), (y0 - gap / 2 - depth, y1 + gap / 2 + depth)
     sheet = Page(bounds, title, subtitle, key=page.KEY)
-    sheet.axis.set(xlabel=f"distance along {name} [{units.length}]", yticks=[])
+    part = f": the first {len(shown)} segments" if len(shown) < len(segments) else ""
+    sheet.axis.set(xlabel=f"distance along {name} [{units.length}]{part}", yticks=[])
     sheet.axis.spines["left"].set_visible(False)
 
     parts = []

@@ -41,13 +41,14 @@ STYLE = {
     "legend.columnspacing": 1.6,
     "figure.dpi": 180,
 }
-# all in inches
+# in inches
 WIDTH, HEIGHT = 6.2, 3.8  # room for the plane
 LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.25, 0.62, 0.5  # margins around it
 BAR = 0.75  # more room on the right, for a colour bar
 KEY = 0.3  # more room below, for a key
 NARROWEST = 4.5  # of a heading
 
+FINE = 0.08  # cells smaller than this get paler edges
 OVERSAMPLE = 2  # rendered pixels per printed pixel, averaged on the page
 PROBE = "import pyvista as p; q = p.Plotter(off_screen=True); q.add_mesh(p.Sphere()); q.screenshot(None)"
 
@@ -89,11 +90,14 @@ class Page:
         """Let VTK draw the cells of the meshes and their edges into the axis, seen straight from above."""
         (x0, x1), (y0, y1) = self.axis.get_xlim(), self.axis.get_ylim()
         pixels = np.array([x1 - x0, y1 - y0]) / self.inch * self.figure.dpi * OVERSAMPLE
+        cells = sum(mesh.n_cells for mesh in meshes)
+        cell = math.sqrt(sum(mesh.area for mesh in meshes) / cells) / self.inch  # size of one on paper
         plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
         for mesh in meshes:
             plotter.add_mesh(mesh, lighting=False, show_scalar_bar=False, **look)
             edges = mesh.extract_all_edges().translate((0, 0, 1e-3 * (x1 - x0)))
-            plotter.add_mesh(edges, color=edge, line_width=1.1 * OVERSAMPLE, lighting=False)
+            ink = {"color": edge, "opacity": min(1.0, cell / FINE), "line_width": 1.1 * OVERSAMPLE}
+            plotter.add_mesh(edges, lighting=False, **ink)
         centre = ((x0 + x1) / 2, (y0 + y1) / 2)
         plotter.enable_parallel_projection()
         plotter.camera_position = [(*centre, x1 - x0), (*centre, 0), (0, 1, 0)]
