@@ -313,3 +313,108 @@ fn sides_that_do_not_face_each_other_are_refused() {
         assert!(message.starts_with("interface joint: ") && message.contains(expected), "{message}");
     }
 }
+
+/// A side of quadratic edges between the given places along y = 0.3, as points and edges; `backwards` for side A.
+fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Edge>) {
+    let mids = s.windows(2).map(|w| 0.5 * (w[0] + w[1]));
+    let points = s.iter().copied().chain(mids).map(|s| [s, 0.3]).collect();
+    let edge = |i: usize| {
+        let (start, end) = if backwards { (i + 1, i) } else { (i, i + 1) };
+        Edge { nodes: [start, end, s.len() + i], cell: 0, boundary: true }
+    };
+    (points, (0..s.len() - 1).rev().map(edge).collect())
+}
+
+fn couple(
+    a: &(Vec<[f64; 2]>, Vec<Edge>),
+    b: &(Vec<[f64; 2]>, Vec<Edge>),
+    kind: Kind,
+    points: Points,
+) -> Coupling {
+    let lower = Side { name: "lower.top", points: &a.0, edges: &a.1 };
+    let upper = Side { name: "upper.bottom", points: &b.0, edges: &b.1 };
+    Coupling::build("joint", lower, upper, kind, points).unwrap()
+}
+
+/// Displacements in the order of the columns.
+fn columns(
+    c: &Coupling,
+    a: &[[f64; 2]],
+    b: &[[f64; 2]],
+    f: impl Fn(f64) -> f64,
+    g: impl Fn(f64) -> f64,
+) -> Vec<f64> {
+    let of_a = c.nodes_a.iter().flat_map(|&i| [0.0, f(a[i][0])]);
+    of_a.chain(c.nodes_b.iter().flat_map(|&i| [0.0, g(b[i][0])])).collect()
+}
+
+/// Claim: on matched quadratic sides both couplings are the six-node element with three Gauss (or Lobatto) points.
+#[test]
+fn matched_quadratic_sides_are_the_classical_six_node_element() {
+    let s = [0.0, 0.4, 1.0, 1.3];
+    let (a, b) = (quadratic_side(&s, true), quadratic_side(&s, false));
+    for (points, rule) in [
+        (Points::Gauss, [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)]),
+        (Points::Lobatto, [(-1.0, 1.0 / 3.0), (0.0, 4.0 / 3.0), (1.0, 1.0 / 3.0)]),
+    ] {
+        for kind in [Kind::Pointwise, Kind::Projected] {
+            let c = couple(&a, &b, kind, points);
+            let k = stiffness(&c, [3.0, 2.0]);
+            let n = 7; // nodes of a side: 4 ends, 3 mid-nodes
+            let mut exact = vec![vec![0.0; 4 * n]; 4 * n];
+            for e in 0..3 {
+                for (xi, weight) in rule {
+                    let shape = [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi];
+                    let w = 0.5 * (s[e + 1] - s[e]) * weight;
+                    let nodes = [e, e + 1, 4 + e];
+                    let entry = |i: usize| {
+                        if i < 3 { (nodes[i], -shape[i]) } else { (n + nodes[i - 3], shape[i - 3]) }
+                    };
+                    for i in 0..6 {
+                        for j in 0..6 {
+                            let ((p, np), (q, nq)) = (entry(i), entry(j));
+                            exact[2 * p][2 * q] += w * 2.0 * np * nq; // x is tangential
+                            exact[2 * p + 1][2 * q + 1] += w * 3.0 * np * nq;
+                        }
+                    }
+                }
+            }
+            for i in 0..4 * n {
+                for j in 0..4 * n {
+                    assert!((k[i][j] - exact[i][j]).abs() < 1e-12, "{kind:?} {points:?}: {i} {j}");
+                }
+            }
+        }
+    }
+}
+
+/// Claim: quadratic sides reproduce quadratic jumps on any two meshes, mixed sides linear ones; three law points on
+/// quadratic cells, two on linear ones.
+#[test]
+fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
+    for (n_a, n_b) in DENSITIES {
+        let (s_a, s_b) = (even(0.0, 2.0, n_a), graded(0.0, 2.0, n_b.max(2), 3.0));
+        let (a, b) = (quadratic_side(&s_a, true), quadratic_side(&s_b, false));
+        let straight = (s_b.iter().map(|&s| [s, 0.3]).collect::<Vec<_>>(), edges(s_b.len(), false));
+        for kind in [Kind::Pointwise, Kind::Projected] {
+            let c = couple(&a, &b, kind, Points::Gauss);
+            let (f, g) = (|x: f64| 0.1 - x + 0.5 * x * x, |x: f64| 0.3 * x - 0.2 * x * x);
+            for (point, jump) in c.points.iter().zip(jumps(&c, &columns(&c, &a.0, &b.0, f, g))) {
+                assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
+            }
+            if kind == Kind::Projected {
+                assert_eq!(c.points.len(), 3 * (c.grid.len() - 1));
+            }
+            let mixed = couple(&a, &straight, kind, Points::Gauss);
+            let (f, g) = (|x: f64| 0.1 - x, |x: f64| 0.3 * x);
+            for (point, jump) in
+                mixed.points.iter().zip(jumps(&mixed, &columns(&mixed, &a.0, &straight.0, f, g)))
+            {
+                assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
+            }
+            if kind == Kind::Projected {
+                assert_eq!(mixed.points.len(), 2 * (mixed.grid.len() - 1));
+            }
+        }
+    }
+}
