@@ -13,9 +13,12 @@
 //! u_top = −p (1 − ν²)/E (h₁ + h₂) − p/K_N.
 
 mod common;
+#[path = "common/table.rs"]
+mod table;
 
 use common::*;
 use midplane::shape::Shape;
+use table::Table;
 
 const P: f64 = 10.0;
 const E: f64 = 1e4;
@@ -50,6 +53,13 @@ fn cases() -> Vec<Case> {
 /// With ν = 0 the layers do not spread, so that the bottom may be held in both directions at any angle.
 #[test]
 fn paper_example_1_is_uniform_to_round_off() {
+    let mut table = Table::new(
+        "case01",
+        "Case 1: uniform compression (paper Example 1)",
+        "Largest relative error over the meshes 5:8, 7:12, 1:37, 9:9, straight and turned by 30°, A and B exchanged or not.",
+        &["element", "coupling", "quadrature", "t_n, t_t", "stress", "u_top"],
+    );
+    let mut worst: indexmap::IndexMap<[&str; 3], [f64; 3]> = indexmap::IndexMap::new();
     let (h1, h2, w, kn) = (0.1, 0.1, 0.2, 1e7);
     let u_top = -P * (h1 + h2) / E - P / kn;
     assert!((u_top - -0.000201_f64).abs() < 1e-18); // the listed value of the case
@@ -72,9 +82,11 @@ fn paper_example_1_is_uniform_to_round_off() {
         let problem = bind(&text, vec![lower, upper]).unwrap();
         let (states, _) = solve(&problem);
         let state = &states[0];
+        let errors = worst.entry([shape.label(), coupling, quadrature]).or_default();
         for (t, r) in state.snapshot.tractions[0].iter().zip(&state.snapshot.jumps[0]) {
             close(t[0], -P, 1e-10, P, &name);
             close(t[1], 0.0, 1e-10, P, &name);
+            errors[0] = errors[0].max((t[0] / -P - 1.0).abs()).max(t[1].abs() / P);
             close(r[0], -P / kn, 1e-10, P / kn, &name);
         }
         // in the axes of the column: σ = −p n ⊗ n
@@ -84,6 +96,7 @@ fn paper_example_1_is_uniform_to_round_off() {
             for stress in stresses.cells.iter().chain(&stresses.nodes) {
                 for k in 0..4 {
                     close(stress[k], exact[k], 1e-10, P, &name);
+                    errors[1] = errors[1].max((stress[k] - exact[k]).abs() / P);
                 }
             }
         }
@@ -91,11 +104,18 @@ fn paper_example_1_is_uniform_to_round_off() {
             let u = displacement(&problem, state, 1, node);
             close(u[0], u_top * nx, 1e-10, u_top, &name);
             close(u[1], u_top * ny, 1e-10, u_top, &name);
+            errors[2] = errors[2].max((u[0] - u_top * nx).hypot(u[1] - u_top * ny) / u_top.abs());
         }
         let energy = 0.5 * P * w * -u_top; // bulk 2e-4 and joint 1e-6
         close(state.stored, energy, 1e-9, energy, &name);
         close(state.work, energy, 1e-9, energy, &name);
     }
+    for (case, errors) in worst {
+        table.row(
+            &case.map(String::from).into_iter().chain(errors.map(|e| format!("{e:.1e}"))).collect::<Vec<_>>(),
+        );
+    }
+    table.finish();
 }
 
 /// ν = 0.25, soft joint, rollers: the layers spread alike, so K_T plays no role (case "soft").
