@@ -4,10 +4,12 @@ use indexmap::IndexMap;
 
 use super::edges::EdgeTable;
 use super::msh::{Content, Declared, Fault, KINDS};
-use super::read::UNUSED;
 use super::{Cells, Edge, Group};
 
 type Found<T> = Result<T, Fault>;
+
+/// Number of a node that no cell uses.
+pub(super) const UNUSED: u32 = u32::MAX;
 
 /// The groups of the mesh by name; `numbers` leads from the nodes of the file to the points of the mesh.
 pub(super) fn gather(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::cells::orient;
 use super::edges::EdgeTable;
-use super::groups::gather;
+use super::groups::{UNUSED, gather};
 use super::msh::{self, Content, Fault};
 use super::{Cells, Mesh};
 use crate::error::{Error, Result};
@@ -58,9 +58,6 @@ fn on_plane(content: &Content) -> std::result::Result<(), Fault> {
     }
     Ok(())
 }
-
-/// Number of a node that no cell uses.
-pub(super) const UNUSED: u32 = u32::MAX;
 
 /// Drops the nodes that no cell uses; returns the new number of every old one.
 fn drop_unused(content: &mut Content) -> Vec<u32> {

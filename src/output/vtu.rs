@@ -73,12 +73,16 @@ impl Grid {
                 Data::Int(_) => "Int64",
                 Data::Byte(_) => "UInt8",
             };
+            // readers take a scalar without this attribute as a flat list
+            let components = match array.components {
+                1 => String::new(),
+                n => format!(" NumberOfComponents=\"{n}\""),
+            };
             // writing to a string cannot fail
             let _ = writeln!(
                 xml,
-                "<DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{}\"{tuples} format=\"appended\" offset=\"{}\"/>",
+                "<DataArray type=\"{kind}\" Name=\"{}\"{components}{tuples} format=\"appended\" offset=\"{}\"/>",
                 array.name,
-                array.components,
                 appended.len()
             );
             append(&array.data, &mut appended);
