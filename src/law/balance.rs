@@ -79,6 +79,9 @@ fn one(
             lo = x
         }
         let newton = x - over / response.stiffness[(i, i)];
+        if newton == x {
+            break;
+        }
         let fallback = match (lo.is_finite(), hi.is_finite()) {
             (true, true) => 0.5 * (lo + hi),
             (true, false) => lo + reach,

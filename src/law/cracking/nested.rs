@@ -30,11 +30,12 @@ impl Surface {
         let mut work = lo;
         if r_lo < 0.0 {
             let (mut hi, mut r_hi) = (lo - r_lo, residual(lo - r_lo));
-            while r_hi < 0.0 && hi.is_finite() {
-                hi = lo + 1.5 * (hi - lo);
+            while r_hi < 0.0 && hi > lo && hi.is_finite() {
+                hi = lo + 2.0 * (hi - lo);
                 r_hi = residual(hi);
             }
-            work = root(residual, (lo, r_lo), (hi, r_hi));
+            // a rise of W below rounding is taken as it is: none
+            work = if hi > lo { root(residual, (lo, r_lo), (hi, r_hi)) } else { lo };
         }
         let (mode, sigma, tau) = self.return_at(trial, &self.at(work));
         Answer { mode, sigma, tau, work }

@@ -32,8 +32,16 @@ const GROW: f64 = 5.0;
 const SHORTEST: f64 = 1e-10;
 /// Change of traction in a sub-step across an event, per ε, of the strength.
 const EVENT: f64 = 0.3;
+/// Sub-steps tried before the way counts as a leap, and ten times fewer per 1/√ε.
+const TRIES: usize = 1000;
+/// A straight way meets a handful of events; beyond this number they are rounding.
+const EVENTS: usize = 20;
+/// Part of an energy that counts as all of it: W approaches its limit without end.
+const USED_UP: f64 = 1.0 - 1e-9;
 /// A change of traction within the shortest sub-step that counts as a leap, of the strength.
 const LEAP: f64 = 1e-3;
+/// So many shortest sub-steps may miss the bound before the whole way counts as a leap.
+const LEAPS: usize = 50;
 
 /// Where the sub-steps come from.
 pub(super) enum Lengths<'a> {
@@ -58,6 +66,12 @@ struct Control {
     length: f64,
     /// An event lies within the first of these distances; a step across it may have the second as its length.
     event: Option<(f64, f64)>,
+    /// Sub-steps that may still be tried.
+    tries_left: usize,
+    /// Events met so far.
+    events: usize,
+    /// Shortest sub-steps that still missed the bound.
+    leaps: usize,
 }
 
 impl Surface {
@@ -183,6 +197,9 @@ impl Surface {
             shortest: SHORTEST * length,
             length,
             event: None,
+            tries_left: TRIES + (TRIES as f64 * 0.1 / tolerance.max(SMALLEST_TOLERANCE).sqrt()) as usize,
+            events: 0,
+            leaps: 0,
         }
     }
 
@@ -195,6 +212,7 @@ impl Surface {
         left: f64,
     ) -> Option<Double> {
         loop {
+            control.tries_left = control.tries_left.checked_sub(1)?;
             let length = control.length.min(left);
             let length = match control.event {
                 Some((beyond, short)) if beyond > short => length.min(0.5 * beyond),
@@ -212,16 +230,19 @@ impl Surface {
             let across = self.is_across_event(from, &step);
             if length <= control.shortest {
                 (control.length, control.event) = (GROW * length, None);
-                return (ratio <= 1.0 || misfit <= LEAP * self.scale()).then_some(step);
+                control.leaps += usize::from(ratio > 1.0);
+                let leap = ratio > 1.0 && (misfit > LEAP * self.scale() || control.leaps > LEAPS);
+                return (!leap).then_some(step);
             }
-            if across && change > control.event_bound.max(rounding) {
+            if across && change > control.event_bound.max(rounding) && control.events < EVENTS {
+                control.events += usize::from(control.event.is_none());
                 control.event = Some((length, length * control.event_bound / change));
                 continue;
             }
             control.length = length * (SAFETY / ratio.cbrt()).clamp(SHRINK, GROW);
             if ratio <= 1.0 {
                 control.event = match control.event {
-                    Some((beyond, short)) if !across => Some((beyond - length, short)),
+                    Some((beyond, short)) if !across && beyond > length => Some((beyond - length, short)),
                     _ => None,
                 };
                 return Some(step);
@@ -232,7 +253,7 @@ impl Surface {
     /// Whether the flow changes its law within a step: another mode, or an energy used up.
     fn is_across_event(&self, from: &Point, step: &Double) -> bool {
         let mode = step.end.mode;
-        let used_up = |w: f64| [w * self.per_gf_i >= 1.0, w * self.per_gf_iia >= 1.0];
+        let used_up = |w: f64| [w * self.per_gf_i >= USED_UP, w * self.per_gf_iia >= USED_UP];
         (from.mode != Mode::Elastic && from.mode != mode)
             || step.stages.iter().flatten().any(|stage| stage.mode() != mode)
             || used_up(from.work) != used_up(step.end.work)

@@ -1,0 +1,160 @@
+//! What the tests of the laws share: reference curves, parameter sets, a fixed stream of random numbers.
+#![allow(dead_code, missing_docs)] // each test takes what it needs
+
+use midplane::law::path::{Path, Row, drive};
+use midplane::law::{Cracking, Law, State, Stepping};
+use nalgebra::Vector2;
+use serde_json::Value;
+
+/// Parameters of the paper's example 2 (§4.2) with the energies read as N/mm, in MPa and m.
+pub const EXAMPLE_2: Cracking = Cracking {
+    normal_stiffness: 1e7,
+    tangential_stiffness: 1e7,
+    tensile_strength: 3.0,
+    cohesion: 4.0,
+    tan_friction: 0.8785,
+    tan_friction_residual: None,
+    fracture_energy_i: 2e-4,
+    fracture_energy_iia: 2e-3,
+    dilatancy_stress: 0.0,
+    alpha_tensile_strength: 0.0,
+    alpha_cohesion: 0.0,
+    alpha_tan_friction: 0.0,
+    alpha_dilatancy_stress: 0.0,
+    alpha_dilatancy_cohesion: 0.0,
+};
+
+pub fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
+    let error = (value - expected).abs();
+    assert!(
+        error <= tolerance,
+        "{what}: {value:e}, expected {expected:e}, off by {error:.2e} > {tolerance:.0e}"
+    );
+}
+
+/// An independent implementation's curve, kept beside the tests.
+pub struct Reference {
+    pub law: Law,
+    pub path: Path,
+    pub file: Value,
+}
+
+pub const CURVES: [&str; 10] = [
+    "o01_tension_linear",
+    "o02_tension_alpha",
+    "o03_shear_sig-5_dil0",
+    "o04_shear_sig-20_friction_loss",
+    "o05_shear_sig-3_dilatant",
+    "o06_shear_blocked_dilatant",
+    "o07_mixed_prop_dil0",
+    "o08_mixed_prop_dilatant",
+    "o09_shear_unload_reload",
+    "o10_tension_close_shear",
+];
+
+impl Reference {
+    pub fn read(name: &str) -> Reference {
+        let file = format!("{}/tests/reference/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(file).unwrap();
+        let file: Value = serde_json::from_str(&text).unwrap();
+        let given = |key: &str| file["parameters"][key].as_f64().unwrap();
+        let law = Law::Cracking(Cracking {
+            normal_stiffness: given("kn"),
+            tangential_stiffness: given("kt"),
+            tensile_strength: given("chi0"),
+            cohesion: given("c0"),
+            tan_friction: given("tanphi0"),
+            tan_friction_residual: Some(given("tanphi_res")),
+            fracture_energy_i: given("gf1"),
+            fracture_energy_iia: given("gf2a"),
+            dilatancy_stress: given("sigma_dil"),
+            alpha_tensile_strength: given("alpha_chi"),
+            alpha_cohesion: given("alpha_c"),
+            alpha_tan_friction: given("alpha_phi"),
+            alpha_dilatancy_stress: given("alpha_sdil"),
+            alpha_dilatancy_cohesion: given("alpha_cdil"),
+        });
+        law.check().unwrap();
+        Reference { law, path: serde_json::from_str(&text).unwrap(), file }
+    }
+
+    pub fn drive(&self, stepping: Stepping) -> Vec<Row> {
+        drive(&self.law, &self.path, &State::default(), stepping).unwrap()
+    }
+
+    /// Largest errors of σ [MPa], τ [MPa] and W/G_I over the stored points.
+    pub fn errors(&self, rows: &[Row]) -> [f64; 3] {
+        let points = self.file["points"].as_array().unwrap();
+        assert_eq!(rows.len(), points.len());
+        let energy = self.file["parameters"]["gf1"].as_f64().unwrap();
+        let mut errors = [0.0_f64; 3];
+        for (row, point) in rows.iter().zip(points) {
+            let stored = |key: &str| point[key].as_f64().unwrap();
+            close(row.s, stored("s"), 1e-12, "s");
+            let off = [
+                row.state.traction.x - stored("sigma"),
+                row.state.traction.y - stored("tau"),
+                (row.state.fracture_work - stored("W")) / energy,
+            ];
+            errors = std::array::from_fn(|i| errors[i].max(off[i].abs()));
+        }
+        errors
+    }
+}
+
+/// Splitmix64 from a fixed seed: the same numbers every day.
+pub struct Random(pub u64);
+
+impl Random {
+    /// Evenly between two bounds.
+    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        lo + (hi - lo) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Evenly between two powers of ten.
+    pub fn power(&mut self, lo: f64, hi: f64) -> f64 {
+        10f64.powf(self.between(lo, hi))
+    }
+
+    pub fn coin(&mut self) -> bool {
+        self.between(0.0, 1.0) < 0.5
+    }
+
+    pub fn direction(&mut self) -> Vector2<f64> {
+        let angle = self.between(0.0, std::f64::consts::TAU);
+        Vector2::new(angle.cos(), angle.sin())
+    }
+
+    /// A cracking law without inadmissible or doubtful parameters, of the size of rock and concrete (MPa, m).
+    pub fn cracking(&mut self) -> Cracking {
+        loop {
+            let chi = self.between(0.3, 4.0);
+            let t = self.between(0.3, 1.2);
+            let energy = self.power(-4.5, -3.0);
+            let kn = self.power(4.5, 7.5);
+            let law = Cracking {
+                normal_stiffness: kn,
+                tangential_stiffness: kn * self.between(0.2, 1.5),
+                tensile_strength: chi,
+                cohesion: chi * t * self.between(1.02, 5.0),
+                tan_friction: t,
+                tan_friction_residual: Some(t * self.between(0.3, 1.0)),
+                fracture_energy_i: energy,
+                fracture_energy_iia: energy * self.between(1.0, 20.0),
+                dilatancy_stress: if self.coin() { 0.0 } else { self.between(1.0, 40.0) },
+                alpha_tensile_strength: self.between(-1.5, 1.5),
+                alpha_cohesion: self.between(-1.5, 1.5),
+                alpha_tan_friction: self.between(-1.5, 1.5),
+                alpha_dilatancy_stress: self.between(-2.0, 2.0),
+                alpha_dilatancy_cohesion: self.between(-2.0, 2.0),
+            };
+            if law.check().is_ok() && law.warnings().is_empty() {
+                return law;
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Claim: whatever is asked of the cracking law, no step leaves the hyperbola, undoes damage or creates energy.
+//!
+//! A million random steps of random laws, small and enormous: F ≤ 0 to rounding, σ ≤ χ, W and the dissipation never
+//! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
+#![allow(missing_docs)]
+
+mod law_help;
+
+use law_help::Random;
+use midplane::law::{Cracking, Law, Response, State, Stepping};
+use nalgebra::Vector2;
+
+/// Of the strength or the traction.
+const ROUNDING: f64 = 1e-12;
+
+/// F(σ, τ; W), written once more, from the definitions.
+fn hyperbola(law: &Cracking, state: &State) -> f64 {
+    let shape = |xi: f64, alpha: f64| {
+        let (e, xi) = ((-alpha).exp(), xi.clamp(0.0, 1.0));
+        e * xi / (1.0 + (e - 1.0) * xi)
+    };
+    let w = state.fracture_work;
+    let chi = law.tensile_strength * (1.0 - shape(w / law.fracture_energy_i, law.alpha_tensile_strength));
+    let c = law.cohesion * (1.0 - shape(w / law.fracture_energy_iia, law.alpha_cohesion));
+    let loss = law.tan_friction - law.tan_friction_residual.unwrap_or(law.tan_friction);
+    let t = law.tan_friction - loss * shape(w / law.fracture_energy_iia, law.alpha_tan_friction);
+    state.traction.y.hypot(c - chi * t) - (c - state.traction.x * t)
+}
+
+fn check(law: &Cracking, old: &State, response: &Response) {
+    let Response { state, dissipation, stiffness, dissipation_gradient, .. } = response;
+    assert!(
+        stiffness.iter().chain(dissipation_gradient.iter()).all(|x| x.is_finite()),
+        "{law:?} {old:?} {response:?}"
+    );
+    let scale = law.cohesion.max(state.traction.amax());
+    let outside = hyperbola(law, state);
+    assert!(outside <= ROUNDING * scale, "F = {outside:e}: {law:?} {old:?} {response:?}");
+    assert!(state.traction.x <= law.tensile_strength * (1.0 + ROUNDING));
+    assert!(state.fracture_work >= old.fracture_work, "W falls: {law:?} {old:?} {response:?}");
+    let released = scale * scale / law.normal_stiffness.min(law.tangential_stiffness);
+    assert!(*dissipation >= -1e-15 * released, "dissipation {dissipation:e}: {law:?} {old:?} {response:?}");
+}
+
+/// Under enormous compression the loss of friction alone takes the shear traction faster than K_T can follow:
+/// |σ| |dtanφ/dW| c ≥ K_T. There is no continuous answer then, and the law must say so.
+fn may_leap(law: &Cracking, old: &State, jump: Vector2<f64>) -> bool {
+    let trial = old.traction.x + law.normal_stiffness * (jump.x - old.jump.x);
+    let compression = -trial.min(old.traction.x);
+    let loss = law.tan_friction - law.tan_friction_residual.unwrap();
+    let steepest = loss / law.fracture_energy_iia * law.alpha_tan_friction.abs().exp();
+    compression * steepest * law.cohesion > law.tangential_stiffness
+}
+
+#[test]
+fn a_million_random_steps_keep_every_promise() {
+    let mut random = Random(4);
+    let mut steps = 0;
+    let (mut by_status, mut leaps) = ([0; 5], 0);
+    while steps < 1_000_000 {
+        let law = random.cracking();
+        let elastic = law.tensile_strength / law.normal_stiffness;
+        let softening = law.fracture_energy_i / law.tensile_strength;
+        let drift = random.direction() * random.between(0.0, 1.5);
+        let mut state = State::default();
+        for _ in 0..200 {
+            let mut size = random.power((0.01 * elastic).log10(), (0.3 * softening).log10());
+            if random.between(0.0, 1.0) < 0.02 {
+                size = random.power(0.0, 6.0) / law.normal_stiffness; // trials up to 1e6 MPa
+            }
+            let jump = state.jump + (drift + random.direction()) * size;
+            let stepping = match random.coin() {
+                true => Stepping::BackwardEuler(1),
+                false => Stepping::Tolerance(1e-3),
+            };
+            let response = match Law::Cracking(law).respond(jump, &state, stepping) {
+                Ok(response) => response,
+                Err(unresolved) => {
+                    assert!(may_leap(&law, &state, jump), "{unresolved}: {law:?} {state:?} {jump:?}");
+                    leaps += 1;
+                    continue;
+                }
+            };
+            check(&law, &state, &response);
+            by_status[usize::from(response.state.status)] += 1;
+            state = response.state;
+            steps += 1;
+        }
+    }
+    println!("by status {by_status:?}, {leaps} leaps");
+    assert!(leaps < steps / 1000, "{leaps} leaps");
+    assert!(by_status.iter().all(|&count| count > 1000), "a mode hardly occurs: {by_status:?}");
+}
+
+#[test]
+fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothing() {
+    let mirror = |v: Vector2<f64>| Vector2::new(v.x, -v.y);
+    let mut random = Random(5);
+    for _ in 0..2000 {
+        let law = random.cracking();
+        let (mut state, mut mirrored) = (State::default(), State::default());
+        for _ in 0..20 {
+            let size = random.power(-8.0, -4.5);
+            let jump = state.jump + random.direction() * size;
+            let go =
+                |jump, old: &State| Law::Cracking(law).respond(jump, old, Stepping::Tolerance(1e-3)).unwrap();
+            state = go(jump, &state).state;
+            mirrored = go(mirror(jump), &mirrored).state;
+            assert_eq!(state.traction, mirror(mirrored.traction));
+            assert_eq!(state.fracture_work, mirrored.fracture_work);
+
+            let again = go(jump, &state);
+            assert_eq!((again.traction, again.dissipation), (state.traction, 0.0));
+            assert_eq!((again.state.jump_plastic, again.state.status), (state.jump_plastic, 0));
+        }
+    }
+}
