@@ -35,24 +35,34 @@ impl Symmetric {
         });
     }
 
-    /// Rows and columns of `held` dofs replaced by their diagonal, so that the rest is positive definite alone.
-    pub fn hold(&mut self, pattern: &Pattern, held: &[bool]) {
+    /// Rows and columns of `held` dofs replaced by their diagonal, so that the rest is positive definite alone. Returns
+    /// what `release` puts back.
+    pub fn hold(&mut self, pattern: &Pattern, held: &[bool]) -> Vec<(usize, f64)> {
+        let mut taken = Vec::new();
         for j in 0..pattern.size() {
-            let range = pattern.offsets[j]..pattern.offsets[j + 1];
-            for (&i, value) in pattern.rows[range.clone()].iter().zip(&mut self.values[range]) {
+            for at in pattern.column(j) {
+                let i = pattern.rows[at] as usize;
                 if i != j && (held[i] || held[j]) {
-                    *value = 0.0;
+                    taken.push((at, std::mem::take(&mut self.values[at])));
                 }
             }
+        }
+        taken
+    }
+
+    /// Undoes `hold`.
+    pub fn release(&mut self, taken: &[(usize, f64)]) {
+        for &(at, value) in taken {
+            self.values[at] = value;
         }
     }
 
     #[inline]
     fn visit(&self, pattern: &Pattern, mut entry: impl FnMut(usize, usize, f64)) {
         for j in 0..pattern.size() {
-            let range = pattern.offsets[j]..pattern.offsets[j + 1];
+            let range = pattern.column(j);
             for (&i, &value) in pattern.rows[range.clone()].iter().zip(&self.values[range]) {
-                entry(i, j, value);
+                entry(i as usize, j, value);
             }
         }
     }

@@ -60,6 +60,11 @@ impl Model {
         self.components * body.first_node..self.components * (body.first_node + body.mesh.points.len())
     }
 
+    /// Coordinates of all nodes, one node after the other [length].
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.bodies.iter().flat_map(|body| body.mesh.points.as_flattened()).copied().collect()
+    }
+
     /// The pattern that continuum and joints fill together.
     pub fn pattern(&self) -> Pattern {
         let cells = self.bodies.iter().flat_map(|body| {

@@ -11,9 +11,9 @@ pub struct Pattern {
     /// Neighbours not smaller than the node itself, ascending; the node comes first.
     neighbours: Vec<u32>,
     /// Start of every column, one more entry than columns.
-    pub offsets: Vec<usize>,
+    pub offsets: Vec<u32>,
     /// Row of every entry.
-    pub rows: Vec<usize>,
+    pub rows: Vec<u32>,
 }
 
 impl Pattern {
@@ -73,11 +73,9 @@ impl Pattern {
         for node in 0..nodes {
             let others = &neighbours[node_offsets[node]..node_offsets[node + 1]];
             for c in 0..components {
-                rows.extend(components * node + c..components * (node + 1));
-                rows.extend(
-                    others[1..].iter().flat_map(|&o| components * o as usize..components * (o as usize + 1)),
-                );
-                offsets.push(rows.len());
+                let column = others.iter().flat_map(|&o| components as u32 * o..components as u32 * (o + 1));
+                rows.extend(column.skip(c));
+                offsets.push(rows.len() as u32);
             }
         }
         Pattern { components, node_offsets, neighbours, offsets, rows }
@@ -88,16 +86,37 @@ impl Pattern {
         self.offsets.len() - 1
     }
 
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.node_offsets.len() - 1
+    }
+
+    /// Columns per node.
+    pub fn components(&self) -> usize {
+        self.components
+    }
+
+    /// The node itself, then its neighbours of larger number, ascending.
+    pub fn neighbours(&self, node: usize) -> &[u32] {
+        &self.neighbours[self.node_offsets[node]..self.node_offsets[node + 1]]
+    }
+
+    /// Places of a column in `rows`.
+    #[inline]
+    pub fn column(&self, j: usize) -> std::ops::Range<usize> {
+        self.offsets[j] as usize..self.offsets[j + 1] as usize
+    }
+
     /// Places in the values of the block of nodes (i, j), i ≥ j: for every column component b, the place of row
     /// component 0 (on the diagonal block, only rows a ≥ b exist).
     #[inline]
     pub fn block(&self, i: usize, j: usize) -> [usize; 2] {
-        let others = &self.neighbours[self.node_offsets[j]..self.node_offsets[j + 1]];
+        let others = self.neighbours(j);
         // the neighbour exists by construction of the pattern
         let index = others.binary_search(&(i as u32)).unwrap_or(0);
         let mut at = [0; 2];
         for (b, at) in at.iter_mut().enumerate().take(self.components) {
-            *at = self.offsets[self.components * j + b] + self.components * index - b;
+            *at = self.offsets[self.components * j + b] as usize + self.components * index - b;
         }
         at
     }
@@ -115,10 +134,8 @@ mod tests {
             let at = pattern.block(i, j);
             for b in 0..2 {
                 for a in if i == j { b } else { 0 }..2 {
-                    assert_eq!(pattern.rows[at[b] + a], 2 * i + a, "block {i} {j}");
-                    assert!(
-                        (pattern.offsets[2 * j + b]..pattern.offsets[2 * j + b + 1]).contains(&(at[b] + a))
-                    );
+                    assert_eq!(pattern.rows[at[b] + a] as usize, 2 * i + a, "block {i} {j}");
+                    assert!(pattern.column(2 * j + b).contains(&(at[b] + a)));
                 }
             }
         }

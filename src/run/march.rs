@@ -1,13 +1,13 @@
 //! The march through the load history of a linear scene: one factorisation per set of supports, one solve per
 //! increment, no iteration.
 
-use super::Clock;
+use super::{Clock, memory};
 use crate::assembly::Model;
 use crate::continuum::{Stresses, recover};
 use crate::error::{Error, Result};
 use crate::output::Snapshot;
 use crate::problem::{ProbeInput, Problem, Stage};
-use crate::solver::{Linear, Solution, Symbolic, System};
+use crate::solver::{Linear, Solution, Symbolic, System, TooLarge};
 
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
@@ -85,7 +85,8 @@ pub fn march(
         System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
     let initial = initial_force(problem);
     begin(clock, "order");
-    let symbolic = Symbolic::analyse(&pattern).map_err(|_| singular(&problem.stages[0], 0))?;
+    let symbolic = Symbolic::analyse(&pattern, &model.coordinates())
+        .map_err(|TooLarge| memory::too_large(model.dofs()))?;
 
     let mut totals = Totals { factor_entries: symbolic.entries(), ..Totals::default() };
     let mut state = State::unloaded(problem);

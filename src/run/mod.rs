@@ -5,6 +5,7 @@
 mod clock;
 mod folder;
 mod march;
+mod memory;
 pub mod point;
 mod prepare;
 mod summary;

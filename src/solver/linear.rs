@@ -56,9 +56,9 @@ impl<'a> Linear<'a> {
         for (joint, stiffness) in system.joints.iter().zip(system.stiffness) {
             joint.add_stiffness(system.pattern, stiffness, &mut total);
         }
-        let mut supported = total.clone();
-        supported.hold(system.pattern, held);
-        let factor = symbolic.factor(system.pattern, &supported)?;
+        let taken = total.hold(system.pattern, held);
+        let factor = symbolic.factor(system.pattern, &total)?;
+        total.release(&taken);
         Ok(Linear { system, held: held.to_vec(), total, factor })
     }
 

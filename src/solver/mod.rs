@@ -2,6 +2,8 @@
 
 mod cholesky;
 mod linear;
+mod ordering;
 
-pub use cholesky::{Cholesky, NotPositiveDefinite, Symbolic};
+pub use cholesky::{Cholesky, NotPositiveDefinite, Symbolic, TooLarge};
 pub use linear::{Linear, Solution, System};
+pub use ordering::{Order, nested_dissection};

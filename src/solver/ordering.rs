@@ -1,0 +1,271 @@
+//! The order of elimination: geometric nested dissection of the nodes, then the postorder of the elimination tree.
+//!
+//! ```text
+//!   ┌────────┬─┬────────┐    The nodes are cut in two along one direction. Those of one part that touch the other are
+//!   │ first  │s│ second │    the separator s and come last; then each part again, down to small leaves. Of all cuts the
+//!   └────────┴─┴────────┘    one with the least |s| / (|first| |second|) is taken: it runs along a joint where one is near.
+//! ```
+//!
+//! Separators are taken from the graph of the matrix, so that any coordinates give a valid order and good ones a sparse
+//! factor. The result does not depend on the number of threads: every half works on its own nodes only. Supernodes are
+//! adjacent columns, so the nodes are renumbered at the end in postorder, which changes neither fill nor tree.
+
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use rayon::prelude::*;
+
+use crate::assembly::Pattern;
+
+/// Sets of at most this many nodes are not cut any further.
+const LEAF: usize = 8;
+/// Larger sets are cut side by side.
+const PARALLEL: usize = 4096;
+/// A separator whose square is at most this many times its set is as small as those of squares: no other is sought.
+const COMPACT: usize = 2;
+/// Either side of a cut has at least this part of the nodes: bounds the depth whatever the graph.
+const LEAST: usize = 8;
+/// No node.
+const NONE: u32 = u32::MAX;
+
+/// A permutation of the dofs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Order {
+    /// Old number of every new one.
+    pub forward: Vec<u32>,
+    /// New number of every old one.
+    pub inverse: Vec<u32>,
+}
+
+/// Orders the dofs of a pattern. `coordinates` are those of its nodes, one node after the other.
+pub fn nested_dissection(pattern: &Pattern, coordinates: &[f64]) -> Order {
+    let graph = Graph::new(pattern);
+    let n = pattern.nodes();
+    let dimensions = coordinates.len() / n.max(1);
+    let ranks: Vec<Vec<u32>> = (0..dimensions)
+        .into_par_iter()
+        .map(|d| {
+            let x = |node: u32| coordinates[dimensions * node as usize + d];
+            let mut sorted: Vec<u32> = (0..n as u32).collect();
+            sorted.sort_unstable_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
+            inverse(&sorted)
+        })
+        .collect();
+    let mut order: Vec<u32> = (0..n as u32).collect();
+    let place = (0..n).map(|_| AtomicU32::new(0)).collect();
+    Dissection { graph: &graph, ranks: &ranks, place }.cut(&mut order, 0);
+    let post = postorder(&elimination_tree(&graph, &order));
+    let components = pattern.components() as u32;
+    let dofs = |node: u32| components * node..components * (node + 1);
+    let forward: Vec<u32> = post.iter().flat_map(|&new| dofs(order[new as usize])).collect();
+    let inverse = inverse(&forward);
+    Order { forward, inverse }
+}
+
+/// Neighbours of every node, without itself.
+struct Graph {
+    offsets: Vec<usize>,
+    neighbours: Vec<u32>,
+}
+
+impl Graph {
+    fn new(pattern: &Pattern) -> Graph {
+        let n = pattern.nodes();
+        let mut offsets = vec![0; n + 1];
+        for node in 0..n {
+            let above = &pattern.neighbours(node)[1..];
+            offsets[node + 1] += above.len();
+            above.iter().for_each(|&other| offsets[other as usize + 1] += 1);
+        }
+        for node in 0..n {
+            offsets[node + 1] += offsets[node];
+        }
+        let mut next = offsets.clone();
+        let mut neighbours = vec![0; offsets[n]];
+        let mut add = |from: usize, to: usize| {
+            neighbours[next[from]] = to as u32;
+            next[from] += 1;
+        };
+        for node in 0..n {
+            for &other in &pattern.neighbours(node)[1..] {
+                add(node, other as usize);
+                add(other as usize, node);
+            }
+        }
+        Graph { offsets, neighbours }
+    }
+
+    fn of(&self, node: u32) -> &[u32] {
+        &self.neighbours[self.offsets[node as usize]..self.offsets[node as usize + 1]]
+    }
+}
+
+struct Dissection<'a> {
+    graph: &'a Graph,
+    /// Place of every node in the whole model sorted along each direction.
+    ranks: &'a [Vec<u32>],
+    /// Place of every node in the set at hand, `NONE` in a separator. Read and written by whoever cuts that set.
+    place: Vec<AtomicU32>,
+}
+
+/// A cut of a sorted set: the nodes before `at`, the others, and which of them touch the other part.
+#[derive(Clone, Copy)]
+struct Cut {
+    /// Size of the separator.
+    size: usize,
+    /// Size of the separator over the product of the sizes of both parts.
+    ratio: f64,
+    axis: usize,
+    at: usize,
+    /// The separator is the boundary of the part before.
+    before: bool,
+}
+
+impl Dissection<'_> {
+    /// Brings a set of nodes that only separators connect to others into the order of its elimination.
+    fn cut(&self, nodes: &mut [u32], first_axis: usize) {
+        if nodes.len() <= LEAF || self.ranks.is_empty() {
+            return;
+        }
+        let mut sorted = first_axis;
+        self.sort(nodes, sorted);
+        let mut cut = self.best(nodes, sorted);
+        for axis in (0..self.ranks.len()).filter(|&axis| axis != first_axis) {
+            if cut.size * cut.size <= COMPACT * nodes.len() {
+                break;
+            }
+            self.sort(nodes, axis);
+            sorted = axis;
+            let other = self.best(nodes, axis);
+            if other.ratio < cut.ratio {
+                cut = other;
+            }
+        }
+        let Cut { axis, at, before, .. } = cut;
+        if sorted != axis {
+            self.sort(nodes, axis);
+        }
+        // the separator goes last
+        let (part, across) = if before { (0..at, at..nodes.len()) } else { (at..nodes.len(), 0..at) };
+        let touches = |node: u32| self.places(node).any(|place| across.contains(&place));
+        let (separator, inner): (Vec<u32>, Vec<u32>) =
+            nodes[part.clone()].iter().partition(|&&node| touches(node));
+        let first = if before { inner.len() } else { at };
+        if before {
+            nodes.copy_within(at.., inner.len());
+            nodes[..inner.len()].copy_from_slice(&inner);
+        } else {
+            nodes[at..at + inner.len()].copy_from_slice(&inner);
+        }
+        let rest = nodes.len() - separator.len();
+        nodes[rest..].copy_from_slice(&separator);
+        separator.iter().for_each(|&node| self.place[node as usize].store(NONE, Relaxed));
+        let (first, second) = nodes[..rest].split_at_mut(first);
+        let next = (axis + 1) % self.ranks.len();
+        if rest > PARALLEL {
+            rayon::join(|| self.cut(first, next), || self.cut(second, next));
+        } else {
+            self.cut(first, next);
+            self.cut(second, next);
+        }
+    }
+
+    /// Sorts a set along a direction and notes the place of every node.
+    fn sort(&self, nodes: &mut [u32], axis: usize) {
+        nodes.sort_unstable_by_key(|&node| self.ranks[axis][node as usize]);
+        for (place, &node) in (0..).zip(nodes.iter()) {
+            self.place[node as usize].store(place, Relaxed);
+        }
+    }
+
+    /// Places of a node's neighbours in the set at hand.
+    fn places(&self, node: u32) -> impl Iterator<Item = usize> {
+        let places = self.graph.of(node).iter().map(|&other| self.place[other as usize].load(Relaxed));
+        places.filter(|&place| place != NONE).map(|place| place as usize)
+    }
+
+    /// The cut of a sorted set with the least ratio.
+    fn best(&self, nodes: &[u32], axis: usize) -> Cut {
+        // a node at place i with neighbours from `low` to `high` is in the boundary of the part before for the cuts at
+        // i + 1 ..= high, of the part behind for those at low + 1 ..= i
+        let mut changes = vec![[0_i32; 2]; nodes.len() + 1];
+        for (i, &node) in nodes.iter().enumerate() {
+            let (low, high) = self.places(node).fold((i, i), |(low, high), j| (low.min(j), high.max(j)));
+            changes[i + 1][0] += i32::from(high > i);
+            changes[i + 1][1] -= i32::from(low < i);
+            if high > i {
+                changes[(high + 1).min(nodes.len())][0] -= 1;
+            }
+            changes[low + 1][1] += i32::from(low < i);
+        }
+        let mut best = Cut { size: 0, ratio: f64::INFINITY, axis, at: nodes.len() / 2, before: true };
+        let mut sizes = [0_i32; 2];
+        let least = nodes.len().div_ceil(LEAST);
+        for at in 1..nodes.len() {
+            for k in 0..2 {
+                sizes[k] += changes[at][k];
+            }
+            if at < least || at > nodes.len() - least {
+                continue;
+            }
+            let product = at as f64 * (nodes.len() - at) as f64;
+            let size = sizes[0].min(sizes[1]) as usize;
+            let ratio = (size as f64).max(0.5) / product; // without separator the middle is best
+            if ratio < best.ratio {
+                best = Cut { size, ratio, axis, at, before: sizes[0] < sizes[1] };
+            }
+        }
+        best
+    }
+}
+
+/// Parent of every column in the elimination tree of the graph in this order, `NONE` at roots (Liu 1986).
+fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
+    let position = inverse(order);
+    let mut parents = vec![NONE; order.len()];
+    let mut ancestors = parents.clone(); // shortcuts towards the root
+    for (j, &node) in (0..).zip(order) {
+        for &other in graph.of(node) {
+            let mut i = position[other as usize];
+            while i < j {
+                let next = std::mem::replace(&mut ancestors[i as usize], j);
+                if next == NONE {
+                    parents[i as usize] = j;
+                }
+                i = next;
+            }
+        }
+    }
+    parents
+}
+
+/// The columns with every subtree together and before its root.
+fn postorder(parents: &[u32]) -> Vec<u32> {
+    let n = parents.len();
+    let (mut child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
+    let mut root = NONE;
+    for j in (0..n).rev() {
+        let first = if parents[j] == NONE { &mut root } else { &mut child[parents[j] as usize] };
+        sibling[j] = std::mem::replace(first, j as u32);
+    }
+    let (mut post, mut path) = (Vec::with_capacity(n), Vec::new());
+    let mut next = root;
+    while next != NONE {
+        path.push(next);
+        next = child[next as usize];
+        while next == NONE {
+            let Some(done) = path.pop() else { break };
+            post.push(done);
+            next = sibling[done as usize];
+        }
+    }
+    post
+}
+
+/// The permutation back.
+fn inverse(order: &[u32]) -> Vec<u32> {
+    let mut inverse = vec![0; order.len()];
+    for (new, &old) in (0..).zip(order) {
+        inverse[old as usize] = new;
+    }
+    inverse
+}

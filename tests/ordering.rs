@@ -1,0 +1,130 @@
+//! Claim: nested dissection is a postordered permutation, the same for any number of threads, and its factor is sparse.
+
+mod common;
+
+use common::*;
+use midplane::assembly::{Pattern, Symmetric};
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+use midplane::solver::{Order, Symbolic, nested_dissection};
+
+/// Two layers 2 × 0.5 with a and b edges along their joint.
+fn layers(a: usize, b: usize, shape: Shape) -> Problem {
+    let flat = |x: f64, y: f64| [x, y];
+    let lower = rectangle(&even(0.0, 2.0, a), &even(-0.5, 0.0, a / 4), shape, flat);
+    let upper = rectangle(&even(0.0, 2.0, b), &even(0.0, 0.5, b / 4), shape, flat);
+    let text = r#"{ "plane": "strain",
+      "subdomains": { "lower": { "msh": "l", "material": "rock" }, "upper": { "msh": "u", "material": "rock" } },
+      "materials": { "rock": { "young": 1e4, "poisson": 0.3 } },
+      "interfaces": { "joint": { "side_a": "lower.top", "side_b": "upper.bottom",
+        "law": { "type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e7 } } },
+      "steps": [ { "name": "bending", "fix": { "lower.left": ["x", "y"], "upper.left": ["x", "y"] } } ] }"#;
+    bind(text, vec![lower, upper]).unwrap()
+}
+
+fn order(problem: &Problem) -> (Pattern, Order) {
+    let pattern = problem.model.pattern();
+    let order = nested_dissection(&pattern, &problem.model.coordinates());
+    (pattern, order)
+}
+
+/// Parent of every column of the factor, by elimination of the columns one after the other.
+fn parents(pattern: &Pattern, order: &Order) -> Vec<Option<usize>> {
+    let n = pattern.size();
+    let mut rows = vec![std::collections::BTreeSet::new(); n];
+    for j in 0..n {
+        for at in pattern.column(j) {
+            let [a, b] = [pattern.rows[at] as usize, j].map(|old| order.inverse[old] as usize);
+            rows[a.min(b)].insert(a.max(b));
+        }
+    }
+    let mut parents = vec![None; n];
+    for j in 0..n {
+        let below: Vec<usize> = rows[j].iter().copied().filter(|&i| i > j).collect();
+        if let Some((&parent, rest)) = below.split_first() {
+            parents[j] = Some(parent);
+            rows[parent].extend(rest);
+        }
+    }
+    parents
+}
+
+#[test]
+fn every_subtree_is_together_and_before_its_root() {
+    for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
+        let (pattern, order) = order(&layers(16, 20, shape));
+        let n = pattern.size();
+        let mut seen = vec![false; n];
+        for (new, &old) in order.forward.iter().enumerate() {
+            assert!(!std::mem::replace(&mut seen[old as usize], true), "{old} occurs twice");
+            assert_eq!(order.inverse[old as usize] as usize, new);
+        }
+        let parents = parents(&pattern, &order);
+        let mut size = vec![1; n];
+        for j in 0..n {
+            // a child ends where the next begins, the last one just before its parent
+            if let Some(parent) = parents[j] {
+                assert!(parent > j);
+                size[parent] += size[j];
+            }
+        }
+        for j in 0..n {
+            if let Some(parent) = parents[j] {
+                assert!(parent + 1 - size[parent] <= j + 1 - size[j], "subtree of {parent} is broken at {j}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_does_not_depend_on_the_number_of_threads() {
+    let problem = layers(120, 150, Shape::Quadrilateral4);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| order(&problem).1)
+    };
+    let one = with(1);
+    assert!(one == with(2) && one == with(5));
+}
+
+#[test]
+fn the_factor_is_as_sparse_as_that_of_minimum_degree() {
+    // at 100 000 dofs of Q4 nested dissection was measured to need 10.8 million entries, METIS 9.9, AMD 10.3 to 12.5
+    let (pattern, order) = order(&layers(310, 322, Shape::Quadrilateral4));
+    let dissected = Symbolic::with_order(&pattern, &order).unwrap();
+    let degree = Symbolic::minimum_degree(&pattern).unwrap();
+    let ratio = dissected.entries() as f64 / degree.entries() as f64;
+    println!("{} dofs: {} entries, {ratio:.3} of minimum degree", pattern.size(), dissected.entries());
+    assert!(ratio < 1.15 && dissected.entries() <= 12_500_000);
+    assert!(dissected.operations() < 1.15 * degree.operations());
+}
+
+#[test]
+fn both_orders_give_the_same_answer() {
+    let problem = layers(60, 75, Shape::Triangle3);
+    let (pattern, order) = order(&problem);
+    let mut matrix: Symmetric = problem.model.continuum(&pattern);
+    let joint = &problem.model.joints[0];
+    joint.add_stiffness(&pattern, &[1e6, 0.0, 0.0, 1e6].repeat(joint.coupling.points.len()), &mut matrix);
+    matrix.hold(&pattern, &problem.stages[0].held);
+    let solved = [Symbolic::with_order(&pattern, &order), Symbolic::minimum_degree(&pattern)].map(|plan| {
+        let plan = plan.unwrap();
+        let mut x: Vec<f64> = (0..pattern.size()).map(|i| ((i * i) % 17) as f64 - 8.0).collect();
+        plan.factor(&pattern, &matrix).unwrap().solve(&mut x);
+        x
+    });
+    let scale = solved[0].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    for (a, b) in solved[0].iter().zip(&solved[1]) {
+        close(*a, *b, 1e-9, scale, "displacement");
+    }
+}
+
+#[test]
+fn coordinates_without_meaning_give_a_valid_order() {
+    let problem = layers(16, 20, Shape::Quadrilateral4);
+    let pattern = problem.model.pattern();
+    let same = vec![0.0; 2 * pattern.nodes()];
+    let mut forward = nested_dissection(&pattern, &same).forward;
+    forward.sort_unstable();
+    assert!(forward.into_iter().eq(0..pattern.size() as u32));
+}
