@@ -1,32 +1,21 @@
-//! Supports and loads step by step: what is held, to which displacement, and the forces at both ends of a step.
+//! Supports and loads step by step: what is held, to which displacement, and which loads are in force.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use indexmap::IndexMap;
 
-use super::groups;
+use super::load::BoundLoad;
+use super::quantity::Quantity;
+use super::stage::{Moving, Stage};
+use super::{along, groups};
 use crate::assembly::Model;
-use crate::continuum::{cell_coordinates, cell_weights, edge_force};
 use crate::error::Result;
 use crate::mesh::Group;
-use crate::scene::{Direction, Load, Scene, Step};
+use crate::scene::{Direction, Place, Scene, Step, Value, Variable};
 
-/// One step, bound.
-#[derive(Debug, Clone)]
-pub struct Stage {
-    /// Name of the step.
-    pub name: String,
-    /// Number of increments.
-    pub increments: usize,
-    /// Held dofs.
-    pub held: Vec<bool>,
-    /// Displacement of every held dof at the end of the step [length]; it is reached from where the dof was.
-    pub target: Vec<f64>,
-    /// External forces at the start of the step [force].
-    pub force_start: Vec<f64>,
-    /// External forces at its end; between them they ramp.
-    pub force_end: Vec<f64>,
-}
+/// Two groups agree about a shared point if their displacements differ by less. Of the larger group's largest.
+const AGREE: f64 = 1e-12;
 
 /// A group whose reaction is reported, in one direction.
 #[derive(Debug, Clone)]
@@ -39,20 +28,20 @@ pub struct Reaction {
     pub dofs: Vec<usize>,
 }
 
-/// Loads in force, by what they act on.
-#[derive(Debug, Clone, Default)]
-struct Loads {
-    groups: IndexMap<String, Load>,
-    bodies: IndexMap<String, [f64; 2]>,
-    gravity: [f64; 2],
+/// Loads in force, by key and what they act on.
+type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
+
+/// Supports in force.
+struct Supports {
+    held: Vec<bool>,
+    target: Vec<f64>,
 }
 
 /// Binds all steps.
 pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Reaction>)> {
-    let mut held = vec![false; model.dofs()];
-    let mut target = vec![0.0; model.dofs()];
+    let mut supports = Supports { held: vec![false; model.dofs()], target: vec![0.0; model.dofs()] };
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
-    let mut loads = Loads::default();
+    let mut loads = Loads::new();
     let mut force = vec![0.0; model.dofs()];
     let mut stages = Vec::new();
     for (index, step) in scene.steps.iter().enumerate() {
@@ -66,137 +55,176 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Re
             let reaction = Reaction { group: group.into(), direction, dofs };
             reactions.entry((group.to_string(), direction.component())).or_insert(reaction);
         }
-        support(scene, model, &index, step, &mut held, &mut target)?;
-        for (group, load) in &step.load {
-            loads.groups.insert(group.clone(), *load);
+        let moving = support(scene, model, &index, step, &mut supports)?;
+        let given = given(scene, model, &index, step)?;
+        let changing: Loads =
+            given.clone().into_iter().filter(|(_, load)| load.follows_load_factor()).collect();
+        // what is replaced by a formula in load_factor ends at once; all else ramps
+        let force_start = if changing.is_empty() {
+            force
+        } else {
+            total(model, loads.iter().filter(|(key, _)| !changing.contains_key(*key)))?
+        };
+        loads.extend(given);
+        let force_end = total(model, loads.iter().filter(|(key, _)| !changing.contains_key(*key)))?;
+        force = force_end.clone();
+        for load in changing.values() {
+            load.add(model, 1.0, &mut force)?;
         }
-        for (body, density) in &step.body_force {
-            loads.bodies.insert(body.clone(), *density);
-        }
-        loads.gravity = step.gravity.unwrap_or(loads.gravity);
-        let force_end = assemble(scene, model, &index, &loads)?;
-        stages.push(Stage {
+        let stage = Stage {
             name: step.name.clone(),
             increments: step.increments,
-            held: held.clone(),
-            target: target.clone(),
-            force_start: std::mem::replace(&mut force, force_end.clone()),
+            held: supports.held.clone(),
+            target: supports.target.clone(),
+            moving,
+            force_start,
             force_end,
-        });
+            changing: changing.into_values().collect(),
+        };
+        stage.check(model)?;
+        stages.push(stage);
     }
     Ok((stages, reactions.into_values().collect()))
 }
 
-/// What a step prescribes: (key, group, direction, value).
-fn prescribed(step: &Step) -> impl Iterator<Item = (&'static str, &str, Direction, f64)> {
+/// Nodal forces of loads at the end of their step.
+fn total<'a>(
+    model: &Model,
+    loads: impl Iterator<Item = (&'a (&'static str, String), &'a Arc<BoundLoad>)>,
+) -> Result<Vec<f64>> {
+    let mut force = vec![0.0; model.dofs()];
+    for (_, load) in loads {
+        load.add(model, 1.0, &mut force)?;
+    }
+    Ok(force)
+}
+
+/// The loads that a step names.
+fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> Result<Loads> {
+    let mut given = Loads::new();
+    for (group, load) in &step.load {
+        let bound = BoundLoad::on_group(scene, model, index, group, load)?;
+        given.insert(("load", group.clone()), Arc::new(bound));
+    }
+    for (b, body) in model.bodies.iter().enumerate() {
+        if let Some(values) = step.body_force.get(&body.name) {
+            let path = ["steps", index, "body_force", &body.name];
+            let bound = BoundLoad::on_body(scene, &path, b, 1.0, values)?;
+            given.insert(("body_force", body.name.clone()), Arc::new(bound));
+        }
+        if let Some(values) = &step.gravity {
+            let bound = BoundLoad::on_body(scene, &["steps", index, "gravity"], b, body.density, values)?;
+            given.insert(("gravity", body.name.clone()), Arc::new(bound));
+        }
+    }
+    Ok(given)
+}
+
+/// What a step prescribes: (key, group, direction, value), no value for zero.
+fn prescribed(step: &Step) -> impl Iterator<Item = (&'static str, &str, Direction, Option<&Value>)> {
     let fixed = step.fix.iter().flat_map(|(group, directions)| {
-        directions.iter().map(move |&direction| ("fix", group.as_str(), direction, 0.0))
+        directions.iter().map(move |&direction| ("fix", group.as_str(), direction, None))
     });
     let displaced = step.displace.iter().flat_map(|(group, displace)| {
-        displace.components().map(move |(direction, value)| ("displace", group.as_str(), direction, value))
+        displace
+            .components()
+            .map(move |(direction, value)| ("displace", group.as_str(), direction, Some(value)))
     });
     fixed.chain(displaced)
 }
 
-/// Applies a step's supports; two different values for one dof are refused.
+/// Applies a step's supports; two different values for one dof are refused. Returns what follows load_factor.
 fn support(
     scene: &Scene,
     model: &Model,
     index: &str,
     step: &Step,
-    held: &mut [bool],
-    target: &mut [f64],
-) -> Result<()> {
-    let mut here: BTreeMap<usize, (&str, f64)> = BTreeMap::new();
+    supports: &mut Supports,
+) -> Result<Vec<Moving>> {
+    // group, its largest displacement, and that of the dof, at the end and half-way
+    let mut here: BTreeMap<usize, (&str, f64, [f64; 2])> = BTreeMap::new();
+    let mut moving: BTreeMap<usize, Moving> = BTreeMap::new();
     for (key, group, direction, value) in prescribed(step) {
         let path = ["steps", index, key, group];
-        for node in groups::nodes(scene, model, &path, group)? {
+        let quantity = match value {
+            Some(value) => Quantity::new(scene, &[&path[..], &[direction.name()]].concat(), value),
+            None => Quantity::number(0.0),
+        };
+        let follows = quantity.uses(Variable::LoadFactor);
+        let quantity = Arc::new(quantity);
+        let mut places = places(scene, model, &path, group, &quantity)?;
+        let mut values = Vec::with_capacity(places.len());
+        for (_, place) in &mut places {
+            let half = quantity.at(&Place { load_factor: 0.5, ..*place });
+            place.load_factor = 1.0;
+            let end = quantity.at(place)?;
+            values.push([end, if follows { half.unwrap_or(f64::NAN) } else { f64::NAN }]);
+        }
+        let scale = values.iter().map(|[end, _]| end.abs()).fold(0.0, f64::max);
+        for ((node, place), value) in places.into_iter().zip(values) {
             let dof = model.components * node + direction.component();
-            if let Some((other, before)) = here.insert(dof, (group, value))
-                && before != value
-            {
-                let name = direction.name();
-                let what = format!(
-                    "\"{group}\" wants displacement_{name} = {value} where \"{other}\" wants {before}"
-                );
-                return Err(scene.source.refuse(&path, what, "groups that share a point must agree there"));
-            }
-            (held[dof], target[dof]) = (true, value);
-        }
-    }
-    Ok(())
-}
-
-/// Nodal forces of all loads in force.
-fn assemble(scene: &Scene, model: &Model, index: &str, loads: &Loads) -> Result<Vec<f64>> {
-    let mut force = vec![0.0; model.dofs()];
-    for (name, load) in &loads.groups {
-        let path = ["steps", index, "load", name];
-        match *load {
-            Load::Traction(traction) => add_edges(scene, model, &path, name, traction, 0.0, &mut force)?,
-            Load::Pressure(pressure) => add_edges(scene, model, &path, name, [0.0; 2], pressure, &mut force)?,
-            Load::Force(value) => {
-                let (body, group) = groups::find(scene, model, &path, name)?;
-                let Some(Group::Points(points)) = group else {
-                    let kind = group.map_or("body", Group::kind);
-                    let what = format!("a force on \"{name}\", which is a {kind}");
-                    return Err(scene.source.refuse(
-                        &path,
-                        what,
-                        "name a physical point, or give a \"traction\"",
-                    ));
-                };
-                for &point in points {
-                    for (d, value) in value.into_iter().enumerate() {
-                        force[model.components * (model.bodies[body].first_node + point) + d] += value;
-                    }
+            let before = here.insert(dof, (group, scale, value));
+            if let Some((other, other_scale, before)) = before {
+                let limit = AGREE * scale.max(other_scale);
+                // half-way only two formulas in load_factor can be compared
+                if let Some(i) = (0..2).find(|&i| (before[i] - value[i]).abs() > limit) {
+                    let name = direction.name();
+                    let (wanted, wants) = (value[i], before[i]);
+                    let what = format!(
+                        "\"{group}\" wants displacement_{name} = {wanted} where \"{other}\" wants {wants}"
+                    );
+                    let cure = "groups that share a point must agree there";
+                    return Err(scene.source.refuse(&path, what, cure));
                 }
             }
-        }
-    }
-    for body in &model.bodies {
-        let own = loads.bodies.get(&body.name).copied().unwrap_or_default();
-        let density = [0, 1].map(|d| own[d] + body.density * loads.gravity[d]);
-        if density == [0.0; 2] {
-            continue;
-        }
-        for c in 0..body.mesh.cells.len() {
-            let weights = cell_weights(body.mesh.cells.shapes[c], &cell_coordinates(&body.mesh, c));
-            for (&node, weight) in body.mesh.cells.nodes(c).iter().zip(weights) {
-                for (d, density) in density.into_iter().enumerate() {
-                    force[model.components * (body.first_node + node) + d] +=
-                        model.thickness * weight * density;
-                }
+            (supports.held[dof], supports.target[dof]) = (true, value[0]);
+            if follows {
+                moving.insert(dof, Moving { dof, place, value: quantity.clone() });
             }
         }
     }
-    Ok(force)
+    Ok(moving.into_values().collect())
 }
 
-fn add_edges(
+/// Model nodes of a group with their places; s along curves only if the quantity asks for it.
+fn places(
     scene: &Scene,
     model: &Model,
     path: &[&str],
     name: &str,
-    traction: [f64; 2],
-    pressure: f64,
-    force: &mut [f64],
-) -> Result<()> {
-    let (index, edges) = groups::curve(scene, model, path, name)?;
+    quantity: &Quantity,
+) -> Result<Vec<(usize, Place)>> {
+    let nodes = groups::nodes(scene, model, path, name)?;
+    let (index, group) = groups::find(scene, model, path, name)?;
     let body = &model.bodies[index];
-    if edges.iter().any(|edge| !edge.boundary) && pressure != 0.0 {
-        let what = format!("\"{name}\" runs inside its body");
-        return Err(scene.source.refuse(path, what, "a pressure acts on the boundary; give a \"traction\""));
-    }
-    for edge in edges {
-        let quadratic = edge.nodes[2] != edge.nodes[1];
-        let x = groups::edge_coordinates(&body.mesh.points, edge);
-        let nodal = edge_force(&x, quadratic, traction, pressure, model.thickness);
-        for (node, nodal) in edge.nodes.into_iter().zip(nodal).take(if quadratic { 3 } else { 2 }) {
-            for (d, nodal) in nodal.into_iter().enumerate() {
-                force[model.components * (body.first_node + node) + d] += nodal;
+    let points = &body.mesh.points;
+    let mut s = vec![0.0; nodes.len()];
+    match group {
+        Some(Group::Edges(edges)) if quantity.uses(Variable::S) => {
+            let fractions = along::fractions(points, edges).map_err(|why| quantity.refuse_s(&why))?;
+            for (edge, ends) in edges.iter().zip(fractions) {
+                let x = groups::edge_coordinates(points, edge);
+                let middle = along::at(ends, &x, true, 0.0);
+                // of a linear edge the third node is the second again
+                let of_edge =
+                    [ends[0], ends[1], if edge.nodes[2] == edge.nodes[1] { ends[1] } else { middle }];
+                for (node, of_node) in edge.nodes.into_iter().zip(of_edge) {
+                    if let Ok(i) = nodes.binary_search(&(body.first_node + node)) {
+                        s[i] = of_node;
+                    }
+                }
             }
         }
+        Some(Group::Points(_) | Group::Edges(_)) => {}
+        other if quantity.uses(Variable::S) => {
+            let kind = other.map_or("body", Group::kind);
+            return Err(quantity.refuse_s(&format!("\"{name}\" is a {kind}")));
+        }
+        _ => {}
     }
-    Ok(())
+    let place = |(node, s): (usize, f64)| {
+        let [x, y] = points[node - body.first_node];
+        (node, Place { x, y, s, load_factor: 1.0 })
+    };
+    Ok(nodes.into_iter().zip(s).map(place).collect())
 }

@@ -1,12 +1,19 @@
 //! A scene bound to its meshes: names become nodes, edges and cells, once.
 
+mod along;
 mod groups;
 mod history;
+mod initial;
+mod load;
 mod probes;
+mod quantity;
 mod rigid;
+mod stage;
 
-pub use history::{Reaction, Stage};
+pub use history::Reaction;
+pub use initial::InitialTraction;
 pub use probes::{BoundProbe, ProbeInput};
+pub use stage::Stage;
 
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
@@ -22,7 +29,7 @@ pub struct Problem {
     /// Bodies and joints.
     pub model: Model,
     /// Law and initial traction of every joint.
-    pub laws: Vec<(Law, [f64; 2])>,
+    pub laws: Vec<(Law, InitialTraction)>,
     /// Supports and loads step by step.
     pub stages: Vec<Stage>,
     /// Columns of the history: name and probe.
@@ -47,8 +54,8 @@ impl Problem {
         for (name, interface) in &scene.interfaces {
             let joint = join(scene, &model, name, interface)?;
             warnings.extend(joint_warnings(&model, &joint, interface));
+            laws.push((interface.law, InitialTraction::bind(scene, name, interface, &joint)?));
             model.joints.push(joint);
-            laws.push((interface.law, interface.initial_traction));
         }
         let (stages, reactions) = history::stages(scene, &model)?;
         for stage in &stages {

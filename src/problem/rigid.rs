@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::Stage;
+use super::{InitialTraction, Stage};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
 use crate::law::Law;
@@ -22,7 +22,11 @@ struct Part {
 }
 
 /// Refuses the step if a body can move freely in it.
-pub(super) fn refuse_free_bodies(model: &Model, laws: &[(Law, [f64; 2])], stage: &Stage) -> Result<()> {
+pub(super) fn refuse_free_bodies(
+    model: &Model,
+    laws: &[(Law, InitialTraction)],
+    stage: &Stage,
+) -> Result<()> {
     let (parts, part_of) = parts(model);
     let motion = |part: &Part, mode: usize, node: usize| -> [f64; 2] {
         let body = &model.bodies[part.body];

@@ -108,9 +108,9 @@ pub fn march(
         for number in 1..=stage.increments {
             begin(clock, "solve");
             let load_factor = number as f64 / stage.increments as f64;
-            let force = ramp(&stage.force_start, &stage.force_end, load_factor);
+            let force = stage.force(model, load_factor)?;
             let loaded: Vec<f64> = force.iter().zip(&initial).map(|(f, f0)| f - f0).collect();
-            let prescribed = ramp(&start, &stage.target, load_factor);
+            let prescribed = stage.prescribed(&start, load_factor)?;
             let solution = linear.solve(&loaded, &prescribed);
             begin(clock, "recover");
             state.advance(problem, solution, force);
@@ -124,19 +124,12 @@ pub fn march(
     Ok(totals)
 }
 
-fn ramp(start: &[f64], end: &[f64], load_factor: f64) -> Vec<f64> {
-    start
-        .iter()
-        .zip(end)
-        .map(|(a, b)| if load_factor == 1.0 { *b } else { a + load_factor * (b - a) })
-        .collect()
-}
-
 /// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions (paper eq. 12).
 fn initial_force(problem: &Problem) -> Vec<f64> {
     let mut force = vec![0.0; problem.model.dofs()];
     for (joint, (_, initial)) in problem.model.joints.iter().zip(&problem.laws) {
-        joint.add_force(&initial.repeat(joint.coupling.points.len()), &mut force);
+        let tractions: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
+        joint.add_force(&tractions, &mut force);
     }
     force
 }
@@ -185,9 +178,10 @@ impl State {
         for (joint, (law, initial)) in model.joints.iter().zip(laws) {
             let d = law.elastic_stiffness();
             let jumps: Vec<[f64; 2]> = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-            let tractions: Vec<[f64; 2]> =
-                jumps.iter().map(|r| [0, 1].map(|i| d[i] * r[i] + initial[i])).collect();
-            for (point, r) in joint.coupling.points.iter().zip(&jumps) {
+            let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
+            let tractions: Vec<[f64; 2]> = jumps.iter().enumerate().map(traction).collect();
+            for (p, (point, r)) in joint.coupling.points.iter().zip(&jumps).enumerate() {
+                let initial = initial.at(p);
                 let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial[i]) * r[i]).sum();
                 self.stored += model.thickness * point.weight * energy;
             }

@@ -25,7 +25,14 @@ pub fn drive(
         let cure = name_cure(interface, scene.interfaces.keys().map(String::as_str));
         return Err(scene.source.refuse(&["interfaces"], format!("no interface \"{interface}\""), cure));
     };
-    let start = start(&joint.law, joint.initial_traction)
+    let mut initial = [0.0; 2];
+    for (i, value) in joint.initial_traction.iter().enumerate() {
+        let place = ["interfaces", interface, "initial_traction", &i.to_string()];
+        let what = format!("{value} depends on the place, and one point has none");
+        let cure = "give the numbers at your point by --set";
+        initial[i] = value.constant().ok_or_else(|| scene.source.refuse(&place, what, cure))?;
+    }
+    let start = start(&joint.law, initial)
         .map_err(|law| scene.source.refuse(&["interfaces", interface, law.key], law.what, law.cure))?;
     let stepping = stepping.unwrap_or(Stepping::Tolerance(joint.law_tolerance));
     let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;

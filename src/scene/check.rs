@@ -1,6 +1,6 @@
 //! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
 
-use super::{Interface, Load, Plane, Scene, Step, split_group};
+use super::{Interface, Load, Plane, Scene, Step, Variable, split_group};
 use crate::error::{Result, name_cure};
 use crate::scene::probe::Probe;
 
@@ -143,12 +143,12 @@ impl Scene {
                 "a joint lies between two subdomains: split the body into two",
             ));
         }
-        if !interface.initial_traction.iter().all(|t| t.is_finite()) {
-            return Err(self.source.refuse(
-                &["interfaces", name, "initial_traction"],
-                "not a number",
-                "give [normal, tangential]",
-            ));
+        for (i, value) in interface.initial_traction.iter().enumerate() {
+            if value.uses(Variable::LoadFactor) {
+                let path = ["interfaces", name, "initial_traction", &i.to_string()];
+                let what = format!("load_factor in {value}");
+                return Err(self.source.refuse(&path, what, "an initial traction is there before any load"));
+            }
         }
         let tolerance = interface.law_tolerance;
         if !(tolerance > 0.0 && tolerance < 1.0) {

@@ -4,15 +4,21 @@
 //! whole body. Units are the user's own, as long as they are consistent.
 
 mod check;
+pub mod expression;
+mod functions;
+mod grammar;
 pub mod probe;
 mod read;
 mod schema;
 mod set;
 mod source;
+mod value;
 
+pub use expression::{Place, Variable};
 pub use read::{parse, read};
 pub use schema::scene_schema;
 pub use source::Source;
+pub use value::Value;
 
 use indexmap::IndexMap;
 use schemars::JsonSchema;
@@ -111,9 +117,9 @@ pub struct Interface {
     /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
     #[serde(default = "law_tolerance")]
     pub law_tolerance: f64,
-    /// Initial traction (n, t) [stress] (paper eq. 10).
+    /// Initial traction (n, t) [stress] (paper eq. 10); in a formula s runs along chain A with n on its left.
     #[serde(default)]
-    pub initial_traction: [f64; 2],
+    pub initial_traction: [Value; 2],
 }
 
 /// One name or a list of names.
@@ -160,18 +166,20 @@ pub struct Step {
     /// Directions held at zero, by group.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub fix: IndexMap<String, Vec<Direction>>,
-    /// Total displacement by group, ramped from its value at the start of the step [length].
+    /// Total displacement by group, ramped from its value at the start of the step [length]. A formula that holds
+    /// load_factor is not ramped: it is the displacement at every load level.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub displace: IndexMap<String, Displace>,
-    /// Loads by group, ramped from their last value.
+    /// Loads by group, ramped from their last value. A load in whose formulas load_factor occurs is not ramped: they
+    /// are its value at every load level of the step, and that at load_factor 1 afterwards.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub load: IndexMap<String, Load>,
-    /// Force per volume (x, y) by subdomain [force / volume], ramped from its last value.
+    /// Force per volume (x, y) by subdomain [force / volume], ramped like a load.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub body_force: IndexMap<String, [f64; 2]>,
-    /// Acceleration (x, y) that acts on every density [length / time²], ramped from its last value.
+    pub body_force: IndexMap<String, [Value; 2]>,
+    /// Acceleration (x, y) that acts on every density [length / time²], ramped like a load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gravity: Option<[f64; 2]>,
+    pub gravity: Option<[Value; 2]>,
 }
 
 /// A coordinate direction.
@@ -185,27 +193,27 @@ pub enum Direction {
 }
 
 /// Prescribed displacement; a direction that is not named stays as it was.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Displace {
     /// Displacement in x [length].
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub x: Option<f64>,
+    pub x: Option<Value>,
     /// Displacement in y [length].
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub y: Option<f64>,
+    pub y: Option<Value>,
 }
 
 /// A load on a group.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Load {
     /// Force per area (x, y) on a curve [stress].
-    Traction([f64; 2]),
+    Traction([Value; 2]),
     /// Pressure on a curve, positive against the body [stress].
-    Pressure(f64),
+    Pressure(Value),
     /// Force (x, y) at a point, through the whole thickness [force].
-    Force([f64; 2]),
+    Force([Value; 2]),
 }
 
 /// What is written.
@@ -259,8 +267,9 @@ impl Direction {
 
 impl Displace {
     /// The prescribed components: (direction, value).
-    pub fn components(&self) -> impl Iterator<Item = (Direction, f64)> {
-        [(Direction::X, self.x), (Direction::Y, self.y)].into_iter().filter_map(|(d, v)| v.map(|v| (d, v)))
+    pub fn components(&self) -> impl Iterator<Item = (Direction, &Value)> {
+        let both = [(Direction::X, &self.x), (Direction::Y, &self.y)];
+        both.into_iter().filter_map(|(d, v)| v.as_ref().map(|v| (d, v)))
     }
 }
 

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
+use serde_path_to_error::Segment;
 
-use super::{Scene, Source, set};
+use super::{Scene, Source, expression::Expression, set};
 use crate::error::{At, Error, Result, name_cure};
 
 /// Reads a scene file, or the `scene.json` of a folder, applies `--set` settings and checks it.
@@ -25,15 +26,36 @@ pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> 
     for setting in settings {
         set::apply(&mut value, setting, &source.file)?;
     }
-    let mut scene: Scene = serde_path_to_error::deserialize(value).map_err(|error| {
-        let path: Vec<String> =
-            error.path().iter().map(|part| part.to_string()).filter(|part| part != "?").collect();
-        let (what, cure) = explain(&error.inner().to_string());
+    let mut scene: Scene = serde_path_to_error::deserialize(&value).map_err(|error| {
+        let part = |part: &Segment| match part {
+            Segment::Seq { index } => Some(index.to_string()),
+            Segment::Unknown => None,
+            named => Some(named.to_string()),
+        };
+        let path: Vec<String> = error.path().iter().filter_map(part).collect();
+        let message = error.inner().to_string();
+        // a formula speaks for itself, with its position
+        if let Some(text) = text_at(&value, &path)
+            && let Err(fault) = Expression::parse(text)
+            && message == fault.what
+        {
+            return source.refuse_within(&path, text, fault.span, fault.what, fault.cure);
+        }
+        let (what, cure) = explain(&message);
         source.refuse(&path, what, cure)
     })?;
     scene.source = source;
     scene.check()?;
     Ok(scene)
+}
+
+/// The string at a path.
+fn text_at<'a>(value: &'a Value, path: &[String]) -> Option<&'a str> {
+    let below = |value: &'a Value, part: &String| match value {
+        Value::Array(list) => list.get(part.parse::<usize>().ok()?),
+        other => other.get(part),
+    };
+    path.iter().try_fold(value, below)?.as_str()
 }
 
 /// A text that is not JSON.
@@ -83,6 +105,7 @@ fn explain(message: &str) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Place;
 
     const SCENE: &str = r#"{
   "plane": "strain",
@@ -160,10 +183,72 @@ mod tests {
             ("\"geo\": \"lower.geo\", ", "", "subdomains.lower: neither \"geo\" nor \"msh\""),
             ("\"upper\": {", "\"lower\": {", "scene.json:5 subdomains.lower: the key \"lower\" occurs twice"),
             ("traction_t@0.5", "traction_q@0.5", "output.history.tau: "),
+            (
+                "-1.0] }",
+                "\"5*cos(pi*z)\"] }",
+                "scene.json:17 steps.0.load.upper.top.traction.1: unknown name \"z\" at character 10 of \"5*cos(pi*z)\"; there is x, y, s, load_factor, pi, e, abs",
+            ),
+            ("-1.0] }", "\"1+sinn(x)\"] }", "Did you mean \"sin\"?"),
+            ("-1.0] }", "\"(1 + 2\"] }", "\"(\" is not closed at character 1 of \"(1 + 2\"; add \")\""),
+            (
+                "-1.0] }",
+                "\"2 x\"] }",
+                "an operator is missing at character 3 of \"2 x\"; write one of + - * / ^",
+            ),
+            ("-1.0] }", "\"2**x\"] }", "a value is missing at character 3 of \"2**x\"; a power is written ^"),
+            ("-1.0] }", "\"0,5\"] }", "\",\" stands outside of a function at character 2"),
+            ("-1.0] }", "\"if(x, 1)\"] }", "if takes 3, not 2, at character 3"),
+            ("-1.0] }", "\"cos\"] }", "\"cos\" is a function at character 1 of \"cos\"; write cos( … )"),
+            ("-1.0] }", "\"1/0\"] }", "\"1/0\" is inf; a number of a scene is finite"),
+            ("-1.0] }", "\"\"] }", "a value is missing at character 1 of \"\""),
+            ("-1.0] }", "true] }", "expected a number or a formula such as"),
+            (
+                "\"law\":",
+                "\"initial_traction\": [\"load_factor\", 0], \"law\":",
+                "interfaces.joint.initial_traction.0: load_factor in \"load_factor\"; an initial traction",
+            ),
         ] {
             let message = refusal(from, to);
             assert!(message.contains(expected), "{message}\n  should contain\n{expected}");
         }
+    }
+
+    #[test]
+    fn a_wrong_formula_is_underlined_where_it_is_wrong() {
+        let text = SCENE.replace("-1.0]", "\"2*(x+ß)\"]");
+        let Err(Error::Text { at, .. }) = parse("scene.json".into(), text.clone(), &[]) else {
+            panic!("accepted");
+        };
+        assert_eq!(&text[at.span], "ß");
+    }
+
+    #[test]
+    fn no_formula_makes_the_door_panic() {
+        let pieces = [
+            "x", "s", "1", "2.5", ".", "e", "1e", "(", ")", "+", "-", "*", "/", "^", ",", "sin", "max(",
+            "if(", " ", "pi", "<", "=", "!", "é", "π", "−", "\u{301}", "\t", "{", "_",
+        ];
+        let mut seed = 1_u64; // a fixed walk through short texts
+        for _ in 0..200_000 {
+            let mut text = String::new();
+            for _ in 0..8 {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                text.push_str(pieces[(seed >> 33) as usize % pieces.len()]);
+            }
+            if let Ok(formula) = Expression::parse(&text) {
+                formula.at(&Default::default());
+            }
+        }
+        for (piece, good) in
+            [("(", false), ("-", false), ("x^", false), ("max(1,", false), ("x+", false), ("é", false)]
+        {
+            for n in [1, 63, 64, 65, 1000, 9_999, 100_000] {
+                assert_eq!(Expression::parse(&piece.repeat(n)).is_ok(), good, "{n} times {piece}");
+                let _ = Expression::parse(&(piece.repeat(n) + "x"));
+            }
+        }
+        let many = "x+".repeat(4_999) + "x";
+        assert_eq!(Expression::parse(&many).unwrap().at(&Place { x: 1.0, ..Place::default() }), 5_000.0);
     }
 
     #[test]

@@ -58,6 +58,25 @@ impl Source {
         }
     }
 
+    /// A refusal that points into a string: at the bytes `span` of `text`, which stands below the key.
+    pub fn refuse_within<S: AsRef<str>>(
+        &self,
+        path: &[S],
+        text: &str,
+        span: Range<usize>,
+        what: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Error {
+        let mut at = self.at(path);
+        // a text that came by --set or is escaped in the file is not found: the key must do
+        if let Some(found) = self.text[at.span.clone()].rfind(&format!("\"{text}\"")) {
+            let start = at.span.start + found + 1;
+            at.line = 1 + self.text[..start].matches('\n').count();
+            at.span = start + span.start..start + span.end;
+        }
+        Error::Text { at: Box::new(at), what: what.into(), cure: cure.into() }
+    }
+
     /// A refusal that points at a key.
     pub fn refuse<S: AsRef<str>>(
         &self,

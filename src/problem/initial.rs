@@ -1,0 +1,47 @@
+//! Initial tractions t₀ at the law points of a joint (paper eq. 10).
+
+use super::quantity::Quantity;
+use crate::assembly::Joint;
+use crate::error::Result;
+use crate::scene::{self, Place, Scene};
+
+/// Initial traction (n, t) of a joint [stress].
+#[derive(Debug, Clone, PartialEq)]
+pub enum InitialTraction {
+    /// The same at all law points.
+    Uniform([f64; 2]),
+    /// One for every law point.
+    Varying(Vec<[f64; 2]>),
+}
+
+impl InitialTraction {
+    /// Its value at a law point.
+    pub fn at(&self, point: usize) -> [f64; 2] {
+        match self {
+            InitialTraction::Uniform(traction) => *traction,
+            InitialTraction::Varying(tractions) => tractions[point],
+        }
+    }
+
+    /// Binds that of an interface: s runs along C from the start of chain A.
+    pub(super) fn bind(
+        scene: &Scene,
+        name: &str,
+        interface: &scene::Interface,
+        joint: &Joint,
+    ) -> Result<InitialTraction> {
+        let [n, t] = &interface.initial_traction;
+        if let (Some(n), Some(t)) = (n.constant(), t.constant()) {
+            return Ok(InitialTraction::Uniform([n, t]));
+        }
+        let n = Quantity::new(scene, &["interfaces", name, "initial_traction", "0"], n);
+        let t = Quantity::new(scene, &["interfaces", name, "initial_traction", "1"], t);
+        let length = joint.coupling.midplane.length;
+        let tractions = joint.coupling.points.iter().map(|point| {
+            let [x, y] = point.position;
+            let place = Place { x, y, s: point.s / length, load_factor: 0.0 };
+            Ok([n.at(&place)?, t.at(&place)?])
+        });
+        Ok(InitialTraction::Varying(tractions.collect::<Result<_>>()?))
+    }
+}

@@ -1,0 +1,173 @@
+//! A load bound to what it acts on: nodal forces at any load level.
+
+use super::quantity::Quantity;
+use super::{along, groups};
+use crate::assembly::Model;
+use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
+use crate::error::{Error, Result};
+use crate::mesh::{Edge, Group};
+use crate::scene::{Load, Place, Scene, Value, Variable};
+
+/// A load in force.
+#[derive(Debug, Clone)]
+pub(super) struct BoundLoad {
+    target: Target,
+    /// Components x, y; a pressure is the first.
+    values: [Quantity; 2],
+}
+
+/// What a load acts on.
+#[derive(Debug, Clone)]
+enum Target {
+    /// Edges of a body; s at the ends of every edge if a formula asks for it.
+    Edges { body: usize, edges: Vec<Edge>, s: Option<Vec<[f64; 2]>>, pressure: bool },
+    /// Points of a body.
+    Points { body: usize, points: Vec<usize> },
+    /// A whole body: force per volume times a factor.
+    Body { body: usize, factor: f64 },
+}
+
+impl BoundLoad {
+    /// Binds a load on a group.
+    pub(super) fn on_group(
+        scene: &Scene,
+        model: &Model,
+        step: &str,
+        name: &str,
+        load: &Load,
+    ) -> Result<BoundLoad> {
+        let path = ["steps", step, "load", name];
+        let quantity = |kind: &str, index: Option<&str>, value: &Value| {
+            let path: Vec<&str> = path.into_iter().chain([kind]).chain(index).collect();
+            Quantity::new(scene, &path, value)
+        };
+        let both =
+            |kind: &str, [x, y]: &[Value; 2]| [quantity(kind, Some("0"), x), quantity(kind, Some("1"), y)];
+        let (values, pressure) = match load {
+            Load::Traction(values) => (both("traction", values), false),
+            Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
+            Load::Force(values) => {
+                let (body, group) = groups::find(scene, model, &path, name)?;
+                let Some(Group::Points(points)) = group else {
+                    let kind = group.map_or("body", Group::kind);
+                    let what = format!("a force on \"{name}\", which is a {kind}");
+                    let cure = "name a physical point, or give a \"traction\"";
+                    return Err(scene.source.refuse(&path, what, cure));
+                };
+                let target = Target::Points { body, points: points.clone() };
+                return Ok(BoundLoad { target, values: both("force", values) });
+            }
+        };
+        let (body, edges) = groups::curve(scene, model, &path, name)?;
+        if pressure && values[0].constant() != Some(0.0) && edges.iter().any(|edge| !edge.boundary) {
+            let what = format!("\"{name}\" runs inside its body");
+            let cure = "a pressure acts on the boundary; give a \"traction\"";
+            return Err(scene.source.refuse(&path, what, cure));
+        }
+        let s = match values.iter().find(|value| value.uses(Variable::S)) {
+            Some(value) => {
+                let points = &model.bodies[body].mesh.points;
+                Some(along::fractions(points, edges).map_err(|why| value.refuse_s(&why))?)
+            }
+            None => None,
+        };
+        Ok(BoundLoad { target: Target::Edges { body, edges: edges.to_vec(), s, pressure }, values })
+    }
+
+    /// Binds a force per volume (times a factor) on a body; `path` is the key of its two components.
+    pub(super) fn on_body(
+        scene: &Scene,
+        path: &[&str],
+        body: usize,
+        factor: f64,
+        values: &[Value; 2],
+    ) -> Result<BoundLoad> {
+        let [x, y] = values;
+        let quantity = |index: &str, value| Quantity::new(scene, &[path, &[index]].concat(), value);
+        let values = [quantity("0", x), quantity("1", y)];
+        match values.iter().find(|value| value.uses(Variable::S)) {
+            Some(value) => Err(value.refuse_s("a body has no such coordinate")),
+            None => Ok(BoundLoad { target: Target::Body { body, factor }, values }),
+        }
+    }
+
+    /// Whether load_factor occurs in it, so that it does not ramp.
+    pub(super) fn follows_load_factor(&self) -> bool {
+        self.values.iter().any(|value| value.uses(Variable::LoadFactor))
+    }
+
+    /// Adds its nodal forces at a load level.
+    pub(super) fn add(&self, model: &Model, load_factor: f64, force: &mut [f64]) -> Result<()> {
+        let [x, y] = &self.values;
+        let constant = match (x.constant(), y.constant()) {
+            (Some(x), Some(y)) => Some([x, y]),
+            _ => None,
+        };
+        let at = |place: [f64; 2], s: f64| -> Result<[f64; 2]> {
+            let place = Place { x: place[0], y: place[1], s, load_factor };
+            Ok([x.at(&place)?, y.at(&place)?])
+        };
+        let mut scatter = |node: usize, nodal: [f64; 2]| {
+            for (d, nodal) in nodal.into_iter().enumerate() {
+                force[model.components * node + d] += nodal;
+            }
+        };
+        match &self.target {
+            Target::Edges { body, edges, s, pressure } => {
+                let body = &model.bodies[*body];
+                let split = |v: [f64; 2]| if *pressure { ([0.0; 2], v[0]) } else { (v, 0.0) };
+                for (e, edge) in edges.iter().enumerate() {
+                    let quadratic = edge.nodes[2] != edge.nodes[1];
+                    let x = groups::edge_coordinates(&body.mesh.points, edge);
+                    let nodal = if let Some(constant) = constant {
+                        let (traction, pressure) = split(constant);
+                        edge_force(&x, quadratic, traction, pressure, model.thickness)
+                    } else {
+                        let origin = body.mesh.points[edge.nodes[0]];
+                        edge_field_force(&x, quadratic, model.thickness, |xi, place| {
+                            let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, quadratic, xi));
+                            Ok::<_, Error>(split(at(plus(origin, place), s)?))
+                        })?
+                    };
+                    for (node, nodal) in edge.nodes.into_iter().zip(nodal).take(if quadratic { 3 } else { 2 })
+                    {
+                        scatter(body.first_node + node, nodal);
+                    }
+                }
+            }
+            Target::Points { body, points } => {
+                let body = &model.bodies[*body];
+                for &point in points {
+                    scatter(body.first_node + point, at(body.mesh.points[point], 0.0)?);
+                }
+            }
+            Target::Body { body, factor } => {
+                let (body, mesh) = (&model.bodies[*body], &model.bodies[*body].mesh);
+                let factor = factor * model.thickness;
+                if constant == Some([0.0; 2]) || factor == 0.0 {
+                    return Ok(());
+                }
+                for c in 0..mesh.cells.len() {
+                    let (shape, nodes) = (mesh.cells.shapes[c], mesh.cells.nodes(c));
+                    let x = cell_coordinates(mesh, c);
+                    if let Some(density) = constant {
+                        for (&node, weight) in nodes.iter().zip(cell_weights(shape, &x)) {
+                            scatter(body.first_node + node, density.map(|density| factor * weight * density));
+                        }
+                    } else {
+                        let origin = mesh.points[nodes[0]];
+                        let nodal = cell_field_force(shape, &x, |place| at(plus(origin, place), 0.0))?;
+                        for (&node, nodal) in nodes.iter().zip(nodal) {
+                            scatter(body.first_node + node, nodal.map(|nodal| factor * nodal));
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn plus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [p[0] + q[0], p[1] + q[1]]
+}

@@ -1,0 +1,62 @@
+//! A number of the scene with the key it stands at, so that a formula that has no value somewhere is refused there.
+
+use crate::error::{At, Error, Result};
+use crate::scene::{Place, Scene, Value, Variable};
+
+/// A number or formula with its key.
+#[derive(Debug, Clone)]
+pub(super) struct Quantity {
+    value: Value,
+    /// Its key; numbers need none.
+    key: Option<Box<At>>,
+}
+
+impl Quantity {
+    /// The quantity at a key.
+    pub(super) fn new(scene: &Scene, path: &[&str], value: &Value) -> Quantity {
+        match value.constant() {
+            Some(number) => Quantity::number(number),
+            None => Quantity { value: value.clone(), key: Some(Box::new(scene.source.at(path))) },
+        }
+    }
+
+    /// A plain number.
+    pub(super) fn number(value: f64) -> Quantity {
+        Quantity { value: Value::Number(value), key: None }
+    }
+
+    /// Its value if that is the same everywhere and always.
+    pub(super) fn constant(&self) -> Option<f64> {
+        self.value.constant()
+    }
+
+    /// Whether it depends on a variable.
+    pub(super) fn uses(&self, variable: Variable) -> bool {
+        self.value.uses(variable)
+    }
+
+    /// Its value at a place, which must be finite.
+    pub(super) fn at(&self, place: &Place) -> Result<f64> {
+        let value = self.value.at(place);
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let named = Variable::ALL.into_iter().zip([place.x, place.y, place.s, place.load_factor]);
+        let used = named
+            .filter(|(variable, _)| matches!(variable, Variable::X | Variable::Y) || self.uses(*variable));
+        let at: Vec<String> = used.map(|(variable, at)| format!("{} = {at}", variable.name())).collect();
+        let what = format!("{} is {value} at {}", self.value, at.join(", "));
+        Err(self.refuse(what, "it must be finite wherever it acts; if(condition, a, b) chooses between two"))
+    }
+
+    /// Refuses it with its key.
+    pub(super) fn refuse(&self, what: impl Into<String>, cure: impl Into<String>) -> Error {
+        Error::Text { at: self.key.clone().unwrap_or_default(), what: what.into(), cure: cure.into() }
+    }
+
+    /// Refuses s where a group has none; `why` says what the group is.
+    pub(super) fn refuse_s(&self, why: &str) -> Error {
+        let what = format!("s in {}, but {why}", self.value);
+        self.refuse(what, "s runs along one open curve; write it in x and y")
+    }
+}

@@ -1,0 +1,88 @@
+//! One step, bound: what is held and loaded at any load level λ.
+//!
+//! ```text
+//! u(λ) = u₀ + λ (u₁ − u₀),     f(λ) = f₀ + λ (f₁ − f₀)     and, where load_factor occurs in a formula, its value at λ
+//! ```
+
+use std::sync::Arc;
+
+use super::load::BoundLoad;
+use super::quantity::Quantity;
+use crate::assembly::Model;
+use crate::error::Result;
+use crate::scene::Place;
+
+/// One step, bound.
+#[derive(Debug, Clone)]
+pub struct Stage {
+    /// Name of the step.
+    pub name: String,
+    /// Number of increments.
+    pub increments: usize,
+    /// Held dofs.
+    pub held: Vec<bool>,
+    /// Displacement of every held dof at the end of the step [length].
+    pub(super) target: Vec<f64>,
+    /// Dofs whose displacement follows a formula in load_factor.
+    pub(super) moving: Vec<Moving>,
+    /// External forces that ramp, at the start of the step [force].
+    pub(super) force_start: Vec<f64>,
+    /// The same at its end.
+    pub(super) force_end: Vec<f64>,
+    /// Loads that follow a formula in load_factor.
+    pub(super) changing: Vec<Arc<BoundLoad>>,
+}
+
+/// A held dof whose displacement follows a formula in load_factor.
+#[derive(Debug, Clone)]
+pub(super) struct Moving {
+    pub(super) dof: usize,
+    pub(super) place: Place,
+    pub(super) value: Arc<Quantity>,
+}
+
+impl Moving {
+    /// Its displacement at a load level.
+    pub(super) fn at(&self, load_factor: f64) -> Result<f64> {
+        self.value.at(&Place { load_factor, ..self.place })
+    }
+}
+
+impl Stage {
+    /// External forces at a load level [force].
+    pub fn force(&self, model: &Model, load_factor: f64) -> Result<Vec<f64>> {
+        let mut force = ramp(&self.force_start, &self.force_end, load_factor);
+        for load in &self.changing {
+            load.add(model, load_factor, &mut force)?;
+        }
+        Ok(force)
+    }
+
+    /// Displacements of the held dofs at a load level, for those at the start of the step [length].
+    pub fn prescribed(&self, start: &[f64], load_factor: f64) -> Result<Vec<f64>> {
+        let mut u = ramp(start, &self.target, load_factor);
+        for moving in &self.moving {
+            u[moving.dof] = moving.at(load_factor)?;
+        }
+        Ok(u)
+    }
+
+    /// Asks every formula in load_factor at every increment, so that none fails half-way.
+    pub(super) fn check(&self, model: &Model) -> Result<()> {
+        if self.changing.is_empty() && self.moving.is_empty() {
+            return Ok(());
+        }
+        let mut unused = vec![0.0; model.dofs()];
+        for number in 1..=self.increments {
+            let load_factor = number as f64 / self.increments as f64;
+            self.moving.iter().try_for_each(|moving| moving.at(load_factor).map(|_| ()))?;
+            self.changing.iter().try_for_each(|load| load.add(model, load_factor, &mut unused))?;
+        }
+        Ok(())
+    }
+}
+
+fn ramp(start: &[f64], end: &[f64], load_factor: f64) -> Vec<f64> {
+    let between = |(a, b): (&f64, &f64)| if load_factor == 1.0 { *b } else { a + load_factor * (b - a) };
+    start.iter().zip(end).map(between).collect()
+}
