@@ -1,11 +1,20 @@
 //! Consistent nodal forces: f_i = h ∫ N_i t dL on edges, f_i = h ∫ N_i b dA in cells.
 
 use super::element::gradients;
-use crate::shape::{GAUSS_2, GAUSS_3, MAX_NODES, Shape, lagrange2, lagrange3};
+use crate::shape::{GAUSS_2, GAUSS_3, LineRule, MAX_NODES, Shape, lagrange2, lagrange3};
 
 /// Points of an edge: shape values, outward normal times dL/dξ · weight. The body lies on the left of the edge.
 fn edge_points(x: &[[f64; 2]; 3], quadratic: bool) -> impl Iterator<Item = ([f64; 3], [f64; 2])> {
     let rule = if quadratic { GAUSS_3 } else { GAUSS_2 };
+    edge_points_of(rule, x, quadratic).map(|(_, n, normal)| (n, normal))
+}
+
+/// The same with the place ξ of every point, for any rule.
+fn edge_points_of(
+    rule: LineRule,
+    x: &[[f64; 2]; 3],
+    quadratic: bool,
+) -> impl Iterator<Item = (f64, [f64; 3], [f64; 2])> {
     rule.iter().map(move |&[xi, weight]| {
         let (n, dn) = if quadratic {
             lagrange3(xi)
@@ -14,7 +23,7 @@ fn edge_points(x: &[[f64; 2]; 3], quadratic: bool) -> impl Iterator<Item = ([f64
             ([n[0], n[1], 0.0], [dn[0], dn[1], 0.0])
         };
         let slope = [0, 1].map(|d| (0..3).map(|i| dn[i] * x[i][d]).sum::<f64>());
-        (n, [weight * slope[1], -weight * slope[0]])
+        (xi, n, [weight * slope[1], -weight * slope[0]])
     })
 }
 
@@ -37,6 +46,27 @@ pub fn edge_force(
         }
     }
     force
+}
+
+/// The same for a traction and a pressure that vary: `load` gets ξ and the place relative to the origin of `x`.
+pub fn edge_field_force<E>(
+    x: &[[f64; 2]; 3],
+    quadratic: bool,
+    thickness: f64,
+    mut load: impl FnMut(f64, [f64; 2]) -> Result<([f64; 2], f64), E>,
+) -> Result<[[f64; 2]; 3], E> {
+    let mut force = [[0.0; 2]; 3];
+    for (xi, n, normal) in edge_points_of(GAUSS_3, x, quadratic) {
+        let place = [0, 1].map(|d| (0..3).map(|i| n[i] * x[i][d]).sum());
+        let (traction, pressure) = load(xi, place)?;
+        let length = normal[0].hypot(normal[1]);
+        for (force, n) in force.iter_mut().zip(n) {
+            for d in 0..2 {
+                force[d] += thickness * n * (traction[d] * length - pressure * normal[d]);
+            }
+        }
+    }
+    Ok(force)
 }
 
 /// ∫ N_i dL of an edge: start, end and mid-node [length].
@@ -63,6 +93,27 @@ pub fn cell_weights(shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> [f64; MAX_NODES]
     weights
 }
 
+/// ∫ N_i b dA of a cell for a force b per volume that varies: `load` gets the place relative to the origin of `x`.
+pub fn cell_field_force<E>(
+    shape: Shape,
+    x: &[[f64; 2]; MAX_NODES],
+    mut load: impl FnMut([f64; 2]) -> Result<[f64; 2], E>,
+) -> Result<[[f64; 2]; MAX_NODES], E> {
+    let mut force = [[0.0; 2]; MAX_NODES];
+    for &[xi, eta, weight] in shape.field_rule() {
+        let values = shape.values(xi, eta);
+        let (_, det) = gradients(shape, x, &values);
+        let place = [0, 1].map(|d| (0..shape.nodes()).map(|i| values.n[i] * x[i][d]).sum());
+        let density = load(place)?;
+        for i in 0..shape.nodes() {
+            for d in 0..2 {
+                force[i][d] += weight * det * values.n[i] * density[d];
+            }
+        }
+    }
+    Ok(force)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -80,6 +131,41 @@ mod tests {
         let force = edge_force(&x, true, [0.0, 6.0], 0.0, 1.0);
         for (force, exact) in force.iter().zip([2.0, 2.0, 8.0]) {
             assert!((force[1] - exact).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_force_that_varies_in_a_curved_cell_has_its_exact_resultant() {
+        // one edge bulges by h as a parabola; ∫ y dA over the region by hand
+        let h = 0.3;
+        for (shape, mid, place, exact) in [
+            (Shape::Triangle6, 3, [0.5, -h], 0.5 * (1.0 / 3.0 - 16.0 * h * h / 30.0)),
+            (Shape::Quadrilateral8, 6, [0.0, 1.0 + h], 4.0 / 3.0 * h + 8.0 / 15.0 * h * h),
+            (Shape::Quadrilateral9, 6, [0.0, 1.0 + h], 4.0 / 3.0 * h + 8.0 / 15.0 * h * h),
+        ] {
+            let mut x = [[0.0; 2]; MAX_NODES];
+            for (x, p) in x.iter_mut().zip(shape.node_points()) {
+                *x = *p;
+            }
+            x[mid] = place;
+            if shape == Shape::Quadrilateral9 {
+                x[8] = [0.0, 0.5 * h]; // the middle of the bulge, as Q8 has it
+            }
+            let force = cell_field_force::<()>(shape, &x, |place| Ok([place[1], 0.0])).unwrap();
+            let total: f64 = force.iter().map(|f| f[0]).sum();
+            assert!((total - exact).abs() < 1e-14, "{shape:?}: {total}, exact {exact}");
+        }
+    }
+
+    #[test]
+    fn a_linear_traction_gives_its_exact_consistent_force() {
+        // t = ξ on an edge of length 2: ∫ N_i ξ dξ = ∓1/3, and on a quadratic edge the same with 0 in the middle
+        let x = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]];
+        for quadratic in [false, true] {
+            let force = edge_field_force::<()>(&x, quadratic, 1.0, |xi, _| Ok(([xi, 0.0], 0.0))).unwrap();
+            for (force, exact) in force.iter().zip([-1.0 / 3.0, 1.0 / 3.0, 0.0]) {
+                assert!((force[0] - exact).abs() < 1e-15, "{force:?}");
+            }
         }
     }
 }

@@ -13,6 +13,6 @@ mod material;
 mod recovery;
 
 pub use element::{ElementStiffness, cell_coordinates, element_stiffness};
-pub use load::{cell_weights, edge_force, edge_weights};
+pub use load::{cell_field_force, cell_weights, edge_field_force, edge_force, edge_weights};
 pub use material::{Elasticity, Plane};
 pub use recovery::{Stresses, principal, recover};

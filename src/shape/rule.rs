@@ -42,6 +42,23 @@ pub(super) const TRIANGLE_6: Rule = &[
     [B, 1.0 - 2.0 * B, WB],
 ];
 
+// Radon's rule: the centroid and two orbits of three points, with √15.
+const R: f64 = 3.872_983_346_207_417;
+const C: f64 = (6.0 - R) / 21.0;
+const WC: f64 = (155.0 - R) / 2400.0;
+const D: f64 = (6.0 + R) / 21.0;
+const WD: f64 = (155.0 + R) / 2400.0;
+/// Seven points, degree 5.
+pub(super) const TRIANGLE_7: Rule = &[
+    [1.0 / 3.0, 1.0 / 3.0, 9.0 / 80.0],
+    [C, C, WC],
+    [1.0 - 2.0 * C, C, WC],
+    [C, 1.0 - 2.0 * C, WC],
+    [D, D, WD],
+    [1.0 - 2.0 * D, D, WD],
+    [D, 1.0 - 2.0 * D, WD],
+];
+
 /// 2×2 Gauss points, degree 3 in each direction.
 pub(super) const SQUARE_4: Rule = &[[-G2, -G2, 1.0], [G2, -G2, 1.0], [G2, G2, 1.0], [-G2, G2, 1.0]];
 
