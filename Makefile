@@ -66,6 +66,9 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
 
+bench:            ## times of the linear path by stage, 100 000 dofs (all sizes: cargo bench --bench large)
+	cargo bench --locked --bench large -- 100000
+
 lint:             ## format and clippy, warnings are errors
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
@@ -86,4 +89,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 16
 
-.PHONY: all tools build test lint docs clean help
+.PHONY: all tools build test bench lint docs clean help

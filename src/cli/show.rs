@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
 use crate::problem::stiffness_number;
-use crate::run::{Done, Event, Prepared};
+use crate::run::{Done, Event, Prepared, memory::gigabytes};
 
 /// Prints events.
 pub(super) struct Show {
@@ -21,6 +21,9 @@ impl Show {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new_spinner();
             bar.enable_steady_tick(Duration::from_millis(100));
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+                bar.set_style(style);
+            }
             bar
         });
         Show { quiet, bar, header: false }
@@ -93,6 +96,9 @@ impl Show {
             .map(|(stage, seconds)| format!("{stage} {seconds:.2}"))
             .collect();
         self.line(&format!("time     {:.2} s: {}", done.clock.total(), stages.join(", ")));
+        if let Some(peak) = done.peak_memory {
+            self.line(&format!("memory   {}", gigabytes(peak)));
+        }
         self.line(&format!("wrote    {}", done.collection.display()));
     }
 

@@ -85,7 +85,7 @@ impl Grid {
                 array.name,
                 appended.len()
             );
-            append(&array.data, &mut appended);
+            append(array.data, &mut appended);
         };
         add(&mut xml, Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
         let _ = writeln!(
@@ -114,20 +114,30 @@ impl Grid {
 }
 
 /// Appends one array: number of blocks, block size, size of the last, compressed sizes, blocks.
-fn append(data: &Data, out: &mut Vec<u8>) {
-    let bytes: Vec<u8> = match data {
-        Data::Float(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
-        Data::Int(values) => values.iter().flat_map(|v| v.to_le_bytes()).collect(),
-        Data::Byte(values) => values.clone(),
+fn append(data: Data, out: &mut Vec<u8>) {
+    let (blocks, bytes): (Vec<Vec<u8>>, usize) = match &data {
+        Data::Float(values) => (compressed(values, f64::to_le_bytes), 8 * values.len()),
+        Data::Int(values) => (compressed(values, i64::to_le_bytes), 8 * values.len()),
+        Data::Byte(values) => (compressed(values, u8::to_le_bytes), values.len()),
     };
-    let blocks: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(compress).collect();
-    let last = bytes.len() % BLOCK; // zero: the last block is full
+    drop(data); // the bytes below take its place in memory
+    let last = bytes % BLOCK; // zero: the last block is full
     for header in [blocks.len(), BLOCK, last].into_iter().chain(blocks.iter().map(Vec::len)) {
         out.extend_from_slice(&(header as u64).to_le_bytes());
     }
     for block in blocks {
         out.extend_from_slice(&block);
     }
+}
+
+/// The values block by block.
+fn compressed<T: Copy + Sync, const N: usize>(values: &[T], to_bytes: fn(T) -> [u8; N]) -> Vec<Vec<u8>> {
+    let encode = |values: &[T]| {
+        let mut block = Vec::with_capacity(BLOCK);
+        values.iter().for_each(|&value| block.extend_from_slice(&to_bytes(value)));
+        compress(&block)
+    };
+    values.par_chunks(BLOCK / N).map(encode).collect()
 }
 
 fn compress(block: &[u8]) -> Vec<u8> {

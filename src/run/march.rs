@@ -64,6 +64,17 @@ pub fn march(
     stage: &mut dyn FnMut(&'static str),
     visit: Visit,
 ) -> Result<Totals> {
+    march_within(memory::available(), problem, clock, stage, visit)
+}
+
+/// `march` if it can do with the memory that is available [bytes]; else it is refused before the first factor.
+pub fn march_within(
+    available: Option<u64>,
+    problem: &Problem,
+    clock: &mut Clock,
+    stage: &mut dyn FnMut(&'static str),
+    visit: Visit,
+) -> Result<Totals> {
     let mut begin = |clock: &mut Clock, name: &'static str| {
         stage(name);
         clock.begin(name);
@@ -87,6 +98,7 @@ pub fn march(
     begin(clock, "order");
     let symbolic = Symbolic::analyse(&pattern, &model.coordinates())
         .map_err(|TooLarge| memory::too_large(model.dofs()))?;
+    memory::refuse(model.dofs(), symbolic.entries(), memory::needed(&symbolic, &pattern), available)?;
 
     let mut totals = Totals { factor_entries: symbolic.entries(), ..Totals::default() };
     let mut state = State::unloaded(problem);

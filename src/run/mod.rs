@@ -5,13 +5,13 @@
 mod clock;
 mod folder;
 mod march;
-mod memory;
+pub mod memory;
 pub mod point;
 mod prepare;
 mod summary;
 
 pub use clock::Clock;
-pub use march::{Place, State, Totals, march};
+pub use march::{Place, State, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
 
 use std::path::PathBuf;
@@ -79,6 +79,8 @@ pub struct Done {
     pub collection: PathBuf,
     /// Seconds by stage.
     pub clock: Clock,
+    /// Most memory that the process has taken [bytes]; absent where the system does not tell.
+    pub peak_memory: Option<u64>,
 }
 
 /// Runs a scene: prepares, solves, writes.
@@ -91,6 +93,7 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
     let mut writer: Option<Writer> = None;
     let mut balance = None;
     let mut visit = |place: Place, state: &State, _: &Totals, clock: &mut Clock| -> Result<()> {
+        (listen.borrow_mut())(Event::Stage("write"));
         clock.begin("write");
         let fields = scene.output.fields;
         if place.number == 0 {
@@ -135,5 +138,5 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
         writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock))?;
     }
     let collection = path.join(format!("{name}.pvd"));
-    Ok(Done { folder: path, collection, clock })
+    Ok(Done { folder: path, collection, clock, peak_memory: memory::peak() })
 }

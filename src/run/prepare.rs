@@ -103,14 +103,6 @@ fn scene_name(file: &Path) -> String {
     }
 }
 
-/// Peak memory of this process so far [bytes]; absent where the system does not tell.
-pub(super) fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
-    Some(1024 * kilobytes)
-}
-
 /// Refuses a joint whose law needs iterations, which `run` does not have yet.
 pub(super) fn refuse_nonlinear(scene: &Scene) -> Result<()> {
     for (name, interface) in &scene.interfaces {

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use super::prepare::peak_memory;
-use super::{Clock, Totals};
+use super::{Clock, Totals, memory};
 use crate::assembly::Model;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::Scene;
@@ -148,7 +147,7 @@ pub(super) fn summary<'a>(
         },
         equilibrium,
         time,
-        peak_memory_bytes: peak_memory(),
+        peak_memory_bytes: memory::peak(),
         warnings: &problem.warnings,
     }
 }

@@ -77,6 +77,12 @@ impl Symbolic {
         self.plan.len_val()
     }
 
+    /// Memory of a factor and of the work on it [bytes].
+    pub fn bytes(&self) -> usize {
+        let scratch = self.plan.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        size_of::<f64>() * self.plan.len_val() + scratch.unaligned_bytes_required()
+    }
+
     /// Multiplications and additions of the factorisation.
     pub fn operations(&self) -> f64 {
         let column = |rows: usize| (rows as f64).powi(2);
