@@ -12,6 +12,8 @@ pub use joint::Joint;
 pub use matrix::Symmetric;
 pub use pattern::Pattern;
 
+use rayon::prelude::*;
+
 use crate::continuum::{Elasticity, cell_coordinates, element_stiffness};
 use crate::mesh::Mesh;
 
@@ -79,7 +81,16 @@ impl Model {
     /// K of the continuum on a pattern.
     pub fn continuum(&self, pattern: &Pattern) -> Symmetric {
         let mut stiffness = Symmetric::zero(pattern);
-        for body in &self.bodies {
+        // every body has columns of its own
+        let mut parts: Vec<(&Body, usize, &mut [f64])> = Vec::new();
+        let (mut rest, mut start) = (stiffness.values.as_mut_slice(), 0);
+        for (b, body) in self.bodies.iter().enumerate() {
+            let end = pattern.offsets[self.dofs_of(b).end] as usize;
+            let (part, behind) = rest.split_at_mut(end - start);
+            parts.push((body, start, part));
+            (rest, start) = (behind, end);
+        }
+        parts.into_par_iter().for_each(|(body, start, values)| {
             for c in 0..body.mesh.cells.len() {
                 let nodes = body.mesh.cells.nodes(c);
                 let x = cell_coordinates(&body.mesh, c);
@@ -89,13 +100,13 @@ impl Model {
                         let at = pattern.block(body.first_node + node_i, body.first_node + node_j);
                         for (b, column) in at.into_iter().enumerate() {
                             for a in if i == j { b } else { 0 }..2 {
-                                stiffness.values[column + a] += k[2 * i + a][2 * j + b];
+                                values[column - start + a] += k[2 * i + a][2 * j + b];
                             }
                         }
                     }
                 }
             }
-        }
+        });
         stiffness
     }
 }

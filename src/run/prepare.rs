@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use super::folder::Folder;
 use super::{Clock, Event, Listener, Options};
 use crate::error::Result;
@@ -29,7 +31,8 @@ pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
     let (scene, name, folder, mut clock, files) = mesh_scene(options, listen)?;
     listen(Event::Stage("read meshes"));
     clock.begin("read meshes");
-    let meshes = files.iter().map(|path| mesh::read(path)).collect::<Result<Vec<Mesh>>>()?;
+    let meshes = files.par_iter().map(|path| mesh::read(path)).collect::<Vec<Result<Mesh>>>();
+    let meshes = meshes.into_iter().collect::<Result<Vec<Mesh>>>()?; // of several errors the first counts
     listen(Event::Stage("bind"));
     clock.begin("bind");
     let problem = Problem::bind(&scene, meshes)?;

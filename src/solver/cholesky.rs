@@ -21,6 +21,9 @@ use crate::assembly::{Pattern, Symmetric};
 
 /// Up to this many unknowns the order is AMD and faer chooses between its factorisations.
 const SMALL: usize = 1000;
+/// Up to this many both orders are made, which costs little, and the better is taken: separators across a joint, whose
+/// coupling reaches some thirty nodes along it, weigh more the smaller the model is.
+const MEDIUM: usize = 50_000;
 
 /// The factorisation's plan for one pattern.
 #[derive(Debug)]
@@ -49,7 +52,12 @@ impl Symbolic {
         if pattern.size() <= SMALL {
             return Symbolic::plan(pattern, SymmetricOrdering::Amd, CholeskySymbolicParams::default());
         }
-        Symbolic::with_order(pattern, &nested_dissection(pattern, coordinates))
+        let dissected = Symbolic::with_order(pattern, &nested_dissection(pattern, coordinates))?;
+        if pattern.size() > MEDIUM {
+            return Ok(dissected);
+        }
+        let other = Symbolic::minimum_degree(pattern)?;
+        Ok(if other.operations() < dissected.operations() { other } else { dissected })
     }
 
     /// Analyses a pattern in a given order.

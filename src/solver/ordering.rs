@@ -16,8 +16,8 @@ use rayon::prelude::*;
 
 use crate::assembly::Pattern;
 
-/// Sets of at most this many nodes are not cut any further.
-const LEAF: usize = 8;
+/// Sets of at most this many nodes are ordered by minimum degree: half the bits of the mask of neighbours.
+const LEAF: usize = 64;
 /// Larger sets are cut side by side.
 const PARALLEL: usize = 4096;
 /// A separator whose square is at most this many times its set is as small as those of squares: no other is sought.
@@ -123,7 +123,7 @@ struct Cut {
 impl Dissection<'_> {
     /// Brings a set of nodes that only separators connect to others into the order of its elimination.
     fn cut(&self, nodes: &mut [u32], first_axis: usize) {
-        if nodes.len() <= LEAF || self.ranks.is_empty() {
+        if nodes.len() <= 1 || self.ranks.is_empty() || nodes.len() <= LEAF && self.minimum_degree(nodes) {
             return;
         }
         let mut sorted = first_axis;
@@ -167,6 +167,44 @@ impl Dissection<'_> {
             self.cut(first, next);
             self.cut(second, next);
         }
+    }
+
+    /// Orders a small set by exact minimum degree, its neighbours in separators counted; false if these are too many.
+    fn minimum_degree(&self, nodes: &mut [u32]) -> bool {
+        for (place, &node) in (0..).zip(nodes.iter()) {
+            self.place[node as usize].store(place, Relaxed);
+        }
+        // bits below LEAF are the set's own nodes, those above its neighbours
+        let mut around: Vec<u32> = Vec::with_capacity(LEAF);
+        let mut adjacent = [0_u128; LEAF];
+        for (i, &node) in nodes.iter().enumerate() {
+            for &other in self.graph.of(node) {
+                let mut bit = self.place[other as usize].load(Relaxed) as usize;
+                if bit == NONE as usize {
+                    let known = around.iter().position(|&known| known == other);
+                    bit = LEAF + known.unwrap_or(around.len());
+                    if known.is_none() {
+                        if around.len() == LEAF {
+                            return false;
+                        }
+                        around.push(other);
+                    }
+                }
+                adjacent[i] |= 1 << bit;
+            }
+        }
+        let mut left: Vec<usize> = (0..nodes.len()).collect();
+        let mut order = Vec::with_capacity(nodes.len());
+        while let Some(k) = (0..left.len()).min_by_key(|&k| adjacent[left[k]].count_ones()) {
+            let i = left.remove(k);
+            order.push(nodes[i]);
+            let clique = adjacent[i];
+            for &j in left.iter().filter(|&&j| clique & 1 << j != 0) {
+                adjacent[j] = (adjacent[j] | clique) & !(1 << i | 1 << j);
+            }
+        }
+        nodes.copy_from_slice(&order);
+        true
     }
 
     /// Sorts a set along a direction and notes the place of every node.
