@@ -14,6 +14,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use rayon::prelude::*;
 
+use super::graph::{Graph, NONE, elimination_tree, inverse, postorder};
 use crate::assembly::Pattern;
 
 /// Sets of at most this many nodes are ordered by minimum degree: half the bits of the mask of neighbours.
@@ -24,8 +25,6 @@ const PARALLEL: usize = 4096;
 const COMPACT: usize = 2;
 /// Either side of a cut has at least this part of the nodes: bounds the depth whatever the graph.
 const LEAST: usize = 8;
-/// No node.
-const NONE: u32 = u32::MAX;
 
 /// A permutation of the dofs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,44 +58,6 @@ pub fn nested_dissection(pattern: &Pattern, coordinates: &[f64]) -> Order {
     let forward: Vec<u32> = post.iter().flat_map(|&new| dofs(order[new as usize])).collect();
     let inverse = inverse(&forward);
     Order { forward, inverse }
-}
-
-/// Neighbours of every node, without itself.
-struct Graph {
-    offsets: Vec<usize>,
-    neighbours: Vec<u32>,
-}
-
-impl Graph {
-    fn new(pattern: &Pattern) -> Graph {
-        let n = pattern.nodes();
-        let mut offsets = vec![0; n + 1];
-        for node in 0..n {
-            let above = &pattern.neighbours(node)[1..];
-            offsets[node + 1] += above.len();
-            above.iter().for_each(|&other| offsets[other as usize + 1] += 1);
-        }
-        for node in 0..n {
-            offsets[node + 1] += offsets[node];
-        }
-        let mut next = offsets.clone();
-        let mut neighbours = vec![0; offsets[n]];
-        let mut add = |from: usize, to: usize| {
-            neighbours[next[from]] = to as u32;
-            next[from] += 1;
-        };
-        for node in 0..n {
-            for &other in &pattern.neighbours(node)[1..] {
-                add(node, other as usize);
-                add(other as usize, node);
-            }
-        }
-        Graph { offsets, neighbours }
-    }
-
-    fn of(&self, node: u32) -> &[u32] {
-        &self.neighbours[self.offsets[node as usize]..self.offsets[node as usize + 1]]
-    }
 }
 
 struct Dissection<'a> {
@@ -254,56 +215,4 @@ impl Dissection<'_> {
         }
         best
     }
-}
-
-/// Parent of every column in the elimination tree of the graph in this order, `NONE` at roots (Liu 1986).
-fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
-    let position = inverse(order);
-    let mut parents = vec![NONE; order.len()];
-    let mut ancestors = parents.clone(); // shortcuts towards the root
-    for (j, &node) in (0..).zip(order) {
-        for &other in graph.of(node) {
-            let mut i = position[other as usize];
-            while i < j {
-                let next = std::mem::replace(&mut ancestors[i as usize], j);
-                if next == NONE {
-                    parents[i as usize] = j;
-                }
-                i = next;
-            }
-        }
-    }
-    parents
-}
-
-/// The columns with every subtree together and before its root.
-fn postorder(parents: &[u32]) -> Vec<u32> {
-    let n = parents.len();
-    let (mut child, mut sibling) = (vec![NONE; n], vec![NONE; n]);
-    let mut root = NONE;
-    for j in (0..n).rev() {
-        let first = if parents[j] == NONE { &mut root } else { &mut child[parents[j] as usize] };
-        sibling[j] = std::mem::replace(first, j as u32);
-    }
-    let (mut post, mut path) = (Vec::with_capacity(n), Vec::new());
-    let mut next = root;
-    while next != NONE {
-        path.push(next);
-        next = child[next as usize];
-        while next == NONE {
-            let Some(done) = path.pop() else { break };
-            post.push(done);
-            next = sibling[done as usize];
-        }
-    }
-    post
-}
-
-/// The permutation back.
-fn inverse(order: &[u32]) -> Vec<u32> {
-    let mut inverse = vec![0; order.len()];
-    for (new, &old) in (0..).zip(order) {
-        inverse[old as usize] = new;
-    }
-    inverse
 }
