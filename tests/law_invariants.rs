@@ -115,3 +115,23 @@ fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothin
         }
     }
 }
+
+/// Newton's accepted answers are those of the nested solver, which cannot diverge.
+#[test]
+fn newton_agrees_with_the_safe_solver() {
+    let mut random = Random(6);
+    for _ in 0..2000 {
+        let law = random.cracking();
+        let softening = law.fracture_energy_i / law.tensile_strength;
+        let mut state = State::default();
+        for _ in 0..20 {
+            let jump = state.jump + random.direction() * random.power(-8.0, softening.log10());
+            let (traction, work) = law.respond_nested(jump, &state);
+            let response = Law::Cracking(law).respond(jump, &state, Stepping::BackwardEuler(1)).unwrap();
+            let off = (response.traction - traction).amax();
+            assert!(off <= 1e-7 * law.cohesion, "{off:e}: {law:?} {state:?} {jump:?}");
+            assert!((response.state.fracture_work - work).abs() <= 1e-11 * law.fracture_energy_i);
+            state = response.state;
+        }
+    }
+}

@@ -22,7 +22,9 @@ const MET: f64 = 1e-12;
 const GAIN: f64 = 4.0;
 /// It is accepted to this when rounding forbids more.
 const NEARLY_MET: f64 = 1e-7;
-const ITERATIONS: usize = 100;
+const ITERATIONS: usize = 60;
+/// The search for a bracket ends this many times farther than the elastic reach.
+const FARTHEST: f64 = 1e8;
 /// Halvings of a Newton correction that makes things worse.
 const HALVINGS: usize = 12;
 
@@ -90,14 +92,14 @@ fn one(
         let next =
             if newton > lo && newton < hi && response.stiffness[(i, i)] > 0.0 { newton } else { fallback };
         if !(lo.is_finite() && hi.is_finite()) {
-            reach *= 2.0;
+            reach *= 4.0;
         }
-        if next == x || !next.is_finite() {
+        if next == x || reach > FARTHEST * scale / stiffness {
             break;
         }
         x = next;
     }
-    let rounding = 4.0 * f64::EPSILON * stiffness * x.abs();
+    let rounding = 4.0 * f64::EPSILON * stiffness * best.1.jump[i].abs();
     if best.0 <= NEARLY_MET * scale + rounding {
         return Ok(best.1);
     }

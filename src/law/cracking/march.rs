@@ -84,6 +84,17 @@ impl Surface {
         Stage { trial, work_old, traction, answer }
     }
 
+    /// One backward Euler step by the nested solver.
+    pub fn step_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
+        let trial = old.traction + self.stiff(jump - old.jump);
+        if self.at(old.fracture_work).hyperbola(trial.x, trial.y) <= self.margin(trial) {
+            return (trial, old.fracture_work);
+        }
+        let half = Trial { sigma: trial.x, tau: trial.y.abs(), work: old.fracture_work };
+        let answer = self.solve_nested(&half);
+        (Vector2::new(answer.sigma, answer.tau.copysign(trial.y)), answer.work)
+    }
+
     /// One backward Euler step along a change of jump.
     pub fn euler_step(&self, from: &Point, change: Vector2<f64>) -> (Point, Stage) {
         let stage = self.stage(from.traction + self.stiff(change), from.work, from.traction.y.abs());

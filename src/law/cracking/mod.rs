@@ -102,6 +102,11 @@ impl Cracking {
         }
     }
 
+    /// One backward Euler step by the safe nested solver alone: traction (n, t), W. What Newton is checked against.
+    pub fn respond_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
+        Surface::new(self).step_nested(jump, old)
+    }
+
     /// The answer under error control, with the lengths of its sub-steps appended to `lengths`.
     pub fn respond_recording(
         &self,

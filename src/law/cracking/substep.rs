@@ -25,6 +25,8 @@ const SMALLEST_TOLERANCE: f64 = 1e-14;
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A new length aims at this much less than the bound allows.
 const SAFETY: f64 = 0.85;
+/// The vertex is at the origin but for this part of G_I.
+const AT_ORIGIN: f64 = 1e-10;
 /// Bounds of the change of length from one sub-step to the next.
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
@@ -182,8 +184,11 @@ impl Surface {
         }
     }
 
-    /// Bound of the local error of a sub-step [stress].
+    /// Bound of the local error of a sub-step [stress]; without strength (Coulomb friction) one step is exact.
     pub fn local_bound(&self, tolerance: f64) -> f64 {
+        if self.scale() == 0.0 {
+            return f64::INFINITY;
+        }
         let tolerance = tolerance.max(SMALLEST_TOLERANCE);
         LOCAL * tolerance * tolerance.sqrt() * self.scale()
     }
@@ -224,7 +229,8 @@ impl Surface {
             let misfit = (whole.traction - step.end.traction).amax();
             let strength = (whole.work - step.end.work).abs()
                 * (self.chi0 * self.per_gf_i).max(self.c0 * self.per_gf_iia);
-            let rounding = ROUNDING * self.stiff(direction * length).amax().max(from.traction.amax());
+            let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
+                + self.rounding_at_origin(step.end.work);
             let ratio = misfit.max(strength) / control.bound.max(rounding);
             let change = (step.end.traction - from.traction).amax();
             let across = self.is_across_event(from, &step);
@@ -248,6 +254,14 @@ impl Surface {
                 return Some(step);
             }
         }
+    }
+
+    /// Rounding of τ where the vertex arrives at the origin: there τ ~ √(1 − W/G_I).
+    fn rounding_at_origin(&self, work: f64) -> f64 {
+        if (1.0 - work * self.per_gf_i).abs() > AT_ORIGIN {
+            return 0.0;
+        }
+        self.scale() * (ROUNDING * self.e_chi.max(1.0 / self.e_chi)).sqrt()
     }
 
     /// Whether the flow changes its law within a step: another mode, or an energy used up.

@@ -39,7 +39,7 @@ pub(super) struct Surface {
     pub per_gf_i: f64,   // 1/G_I, 0 if there is no tensile strength to lose
     pub per_gf_iia: f64, // 1/G_II, 0 if there is no cohesion to lose
     pub sigma_dil: f64,
-    e_chi: f64,
+    pub e_chi: f64,
     e_c: f64,
     e_t: f64,
     e_dil: f64,

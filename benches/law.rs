@@ -1,0 +1,88 @@
+//! Cost of one evaluation of each law: elastic, plastic by Newton, plastic by the safe fallback, under error control.
+#![allow(missing_docs)]
+
+use divan::{Bencher, black_box};
+use midplane::law::{Cracking, Elastic, Law, Response, State, Stepping};
+use nalgebra::Vector2;
+
+fn main() {
+    divan::main();
+}
+
+/// The paper's example 2 (§4.2), energies read as N/mm, with dilatancy.
+const LAW: Cracking = Cracking {
+    normal_stiffness: 1e7,
+    tangential_stiffness: 1e7,
+    tensile_strength: 3.0,
+    cohesion: 4.0,
+    tan_friction: 0.8785,
+    tan_friction_residual: None,
+    fracture_energy_i: 2e-4,
+    fracture_energy_iia: 2e-3,
+    dilatancy_stress: 20.0,
+    alpha_tensile_strength: 0.0,
+    alpha_cohesion: 0.0,
+    alpha_tan_friction: 0.0,
+    alpha_dilatancy_stress: 0.0,
+    alpha_dilatancy_cohesion: 0.0,
+};
+
+fn respond(law: Cracking, jump: [f64; 2], old: &State, stepping: Stepping) -> Response {
+    let answer = Law::Cracking(law).respond(Vector2::from(black_box(jump)), black_box(old), stepping);
+    answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"))
+}
+
+fn opened() -> State {
+    respond(LAW, [2e-5, 1e-5], &State::default(), Stepping::Tolerance(1e-6)).state
+}
+
+#[divan::bench]
+fn elastic_law(bencher: Bencher) {
+    let springs = Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 };
+    bencher
+        .bench_local(|| black_box(springs).traction(black_box(Vector2::new(1e-6, 2e-6)), Vector2::zeros()));
+}
+
+#[divan::bench]
+fn elastic_law_full_answer(bencher: Bencher) {
+    let springs = Law::Elastic(Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 });
+    let old = State::default();
+    let jump = Vector2::new(1e-6, 2e-6);
+    bencher.bench_local(|| springs.respond(black_box(jump), black_box(&old), Stepping::Tolerance(1e-4)));
+}
+
+#[divan::bench]
+fn cracking_elastic(bencher: Bencher) {
+    let old = opened();
+    bencher.bench_local(|| respond(LAW, [1.99e-5, 1e-5], &old, Stepping::Tolerance(1e-4)));
+}
+
+#[divan::bench]
+fn cracking_tension_newton(bencher: Bencher) {
+    let old = opened();
+    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Stepping::BackwardEuler(1)));
+}
+
+#[divan::bench]
+fn cracking_compression_newton(bencher: Bencher) {
+    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Stepping::Tolerance(1e-6)).state;
+    bencher.bench_local(|| respond(LAW, [-5e-7, 2.1e-5], &old, Stepping::BackwardEuler(1)));
+}
+
+#[divan::bench]
+fn cracking_tension_fallback(bencher: Bencher) {
+    let old = opened();
+    bencher.bench_local(|| LAW.respond_nested(black_box(Vector2::new(2.1e-5, 1.05e-5)), black_box(&old)));
+}
+
+#[divan::bench]
+fn cracking_compression_fallback(bencher: Bencher) {
+    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Stepping::Tolerance(1e-6)).state;
+    bencher.bench_local(|| LAW.respond_nested(black_box(Vector2::new(-5e-7, 2.1e-5)), black_box(&old)));
+}
+
+#[divan::bench]
+fn cracking_under_error_control(bencher: Bencher) {
+    let old = opened();
+    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Stepping::Tolerance(1e-4)));
+}

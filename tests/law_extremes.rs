@@ -1,0 +1,231 @@
+//! Claim: extreme parameters and ways are answered or refused, never mangled.
+//!
+//! Friction from none to a great deal, no strength at all, vertex outside, energies too small and too large, energies
+//! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
+#![allow(missing_docs)]
+
+mod law_help;
+
+use law_help::{EXAMPLE_2, Random, close};
+use midplane::law::{Cracking, Inadmissible, Law, State, Stepping};
+use nalgebra::{Matrix2, Vector2};
+
+fn refused(law: &Cracking, key: &str, parts: &[&str]) {
+    let Inadmissible { key: blamed, what, cure } = law.check().unwrap_err();
+    assert_eq!(blamed, key, "{what}; {cure}");
+    let message = format!("{what}; {cure}");
+    for part in parts {
+        assert!(message.contains(part), "\"{part}\" is not in: {message}");
+    }
+}
+
+fn walk(law: &Cracking, ways: &[[f64; 2]], stepping: Stepping) -> Vec<State> {
+    law.check().unwrap();
+    let mut state = State::default();
+    ways.iter()
+        .map(|&[n, t]| {
+            let response = Law::Cracking(*law).respond(Vector2::new(n, t), &state, stepping).unwrap();
+            assert!(response.stiffness.iter().all(|x| x.is_finite()), "{response:?}");
+            assert!(response.state.fracture_work >= state.fracture_work);
+            assert!(response.dissipation >= 0.0);
+            state = response.state;
+            state
+        })
+        .collect()
+}
+
+const STEPPINGS: [Stepping; 2] = [Stepping::Tolerance(1e-4), Stepping::BackwardEuler(5)];
+
+#[test]
+fn b13_friction_from_none_to_ten() {
+    refused(&Cracking { tan_friction: 0.0, ..EXAMPLE_2 }, "tan_friction", &["0"]);
+    for friction in [1e-12, 1.0, 10.0] {
+        let law = Cracking { tan_friction: friction, cohesion: 3.0 * friction.max(1.0), ..EXAMPLE_2 };
+        for stepping in STEPPINGS {
+            for state in walk(&law, &[[-1e-6, 0.0], [-1e-6, 5e-5], [1e-5, 5e-5], [5e-5, 2e-4]], stepping) {
+                assert!(state.traction.iter().all(|x| x.is_finite()));
+            }
+        }
+        // the peak at σ = −10: √((c−σt)² − (c−χt)²)
+        let (c, chi, sigma) = (law.cohesion, law.tensile_strength, -10.0);
+        let peak = ((chi - sigma) * friction * (2.0 * c - friction * (chi + sigma))).sqrt();
+        let slip = peak / law.tangential_stiffness;
+        let last = *walk(&law, &[[-1e-6, 0.0], [-1e-6, slip]], STEPPINGS[0]).last().unwrap();
+        close(last.traction.y, peak, 1e-12 * peak, "peak");
+        let beyond = *walk(&law, &[[-1e-6, 0.0], [-1e-6, 2.0 * slip]], STEPPINGS[0]).last().unwrap();
+        assert_eq!(beyond.status, 2);
+    }
+}
+
+#[test]
+fn b14_without_tensile_strength_tension_is_free_of_stress_from_the_start() {
+    let law = Cracking { tensile_strength: 0.0, fracture_energy_i: 0.0, ..EXAMPLE_2 };
+    for stepping in STEPPINGS {
+        for state in walk(&law, &[[1e-5, 0.0], [2e-5, 1e-5], [3e-5, 1e-4]], stepping) {
+            assert!(state.traction.amax() <= 1e-12 * law.cohesion, "{state:?}");
+            assert_eq!(state.status, 4);
+        }
+        // the vertex is at the origin: in compression τ² = σt (σt − 2c) is still there
+        let sigma = -2.0;
+        let peak = (sigma * law.tan_friction * (sigma * law.tan_friction - 2.0 * law.cohesion)).sqrt();
+        let sheared = walk(&law, &[[-2e-7, 0.0], [-2e-7, peak / 1e7]], stepping)[1];
+        close(sheared.traction.y, peak, 1e-12 * peak, "peak");
+    }
+}
+
+#[test]
+fn b15_without_any_strength_the_law_is_coulomb_friction() {
+    let law = Cracking {
+        tensile_strength: 0.0,
+        cohesion: 0.0,
+        fracture_energy_i: 0.0,
+        fracture_energy_iia: 0.0,
+        ..EXAMPLE_2
+    };
+    for stepping in STEPPINGS {
+        let states =
+            walk(&law, &[[0.0, 1e-6], [1e-6, 1e-6], [0.0, 0.0], [-1e-6, 0.0], [-1e-6, 1e-4]], stepping);
+        assert_eq!(states[1].traction, Vector2::zeros());
+        let limit = 0.8785 * -states[4].traction.x;
+        close(states[4].traction.y, limit, 1e-12, "τ = μ |σ|");
+        assert_eq!((states[4].fracture_work, states[4].status), (0.0, 2));
+    }
+}
+
+#[test]
+fn b16_a_vertex_beyond_the_asymptotes_is_refused() {
+    let law = Cracking { cohesion: 2.0, ..EXAMPLE_2 };
+    refused(&law, "cohesion", &["2", "3", "0.8785", "2.6355"]);
+    // on the edge the hyperbola is a cone with its corner at the vertex: answered
+    let cone = Cracking { cohesion: 3.0 * 0.8785, ..EXAMPLE_2 };
+    for stepping in STEPPINGS {
+        let states = walk(&cone, &[[1e-6, 1e-7], [1e-5, 1e-6], [5e-5, 5e-6]], stepping);
+        assert!(states.iter().all(|state| state.traction.iter().all(|x| x.is_finite())));
+    }
+}
+
+#[test]
+fn b17_an_energy_too_small_for_the_stiffness_is_refused_with_the_least_stiffness() {
+    // K_N > χ₀² e^|α| / G_I = 9/8e-7 = 1.125e7
+    let law = Cracking { fracture_energy_i: 8e-7, ..EXAMPLE_2 };
+    refused(&law, "normal_stiffness", &["1.125e7", "1e7", "tensile_strength"]);
+    assert!(Cracking { normal_stiffness: 1.126e7, ..law }.check().is_ok());
+    let shaped = Cracking { alpha_tensile_strength: -1.0, ..law };
+    refused(&shaped, "normal_stiffness", &["3.058"]);
+
+    // in shear the rule is a rule of thumb: c₀²/G_II = 8e3, χ₀ t c₀/G_I = 5.3e4
+    assert!(EXAMPLE_2.warnings().is_empty());
+    let soft = Cracking { tangential_stiffness: 5e4, ..EXAMPLE_2 };
+    assert!(soft.check().is_ok());
+    assert!(soft.warnings()[0].contains("tangential_stiffness"), "{:?}", soft.warnings());
+}
+
+#[test]
+fn b18_huge_energies_are_perfect_plasticity() {
+    let law = Cracking { fracture_energy_i: 1e6, fracture_energy_iia: 1e6, ..EXAMPLE_2 };
+    for stepping in STEPPINGS {
+        let states = walk(&law, &[[1e-4, 0.0], [1e-3, 0.0]], stepping);
+        close(states[1].traction.x, 3.0, 1e-6, "plateau in tension");
+        let peak = ((4.0_f64 + 10.0 * 0.8785).powi(2) - (4.0_f64 - 3.0 * 0.8785).powi(2)).sqrt();
+        let states = walk(&law, &[[-1e-6, 0.0], [-1e-6, 1e-4], [-1e-6, 1e-2]], stepping);
+        close(states[2].traction.y, peak, 1e-6, "plateau in shear");
+    }
+}
+
+#[test]
+fn b19_cohesion_may_go_first_only_as_long_as_the_vertex_stays_inside() {
+    let reversed = Cracking { fracture_energy_i: 2e-3, fracture_energy_iia: 2e-4, ..EXAMPLE_2 };
+    refused(&reversed, "fracture_energy_iia", &["cohesion", "tensile_strength"]);
+    // c = 40 (1 − 1.25 ξ), χ t = 2.6 (1 − ξ): c falls below χ t close to the end
+    refused(
+        &Cracking { cohesion: 40.0, fracture_energy_iia: 1.6e-4, ..EXAMPLE_2 },
+        "fracture_energy_iia",
+        &[],
+    );
+    // the tensile strength is gone early, its energy is only nominally the larger one
+    let hastened = Cracking {
+        cohesion: 40.0,
+        fracture_energy_iia: 1.999e-4,
+        alpha_tensile_strength: -2.0,
+        alpha_cohesion: 0.0,
+        ..EXAMPLE_2
+    };
+    refused(&hastened, "fracture_energy_iia", &[]);
+    assert!(Cracking { fracture_energy_iia: 2e-4, ..EXAMPLE_2 }.check().is_ok());
+}
+
+#[test]
+fn b20_without_dilatancy_sigma_sticks_to_zero() {
+    // W ≥ G_I and opening with slip: nothing is divided by σ_dil = 0, σ is 0 and not −0.0…1
+    for stepping in [Stepping::Tolerance(1e-6), Stepping::BackwardEuler(1), Stepping::BackwardEuler(50)] {
+        let ways: Vec<[f64; 2]> = (1..=100).map(|k| [2e-6 * k as f64, 2e-6 * k as f64]).collect();
+        let states = walk(&EXAMPLE_2, &ways, stepping);
+        let first = states.iter().position(|state| state.traction.x == 0.0).unwrap();
+        assert!(states[first..].iter().all(|state| state.traction.x == 0.0 && state.status >= 3));
+    }
+}
+
+#[test]
+fn b21_unloading_is_elastic_reversal_yields_on_the_other_side_and_closing_carries_at_once() {
+    let law = EXAMPLE_2;
+    let elastic = Matrix2::new(1e7, 0.0, 0.0, 1e7);
+    for stepping in STEPPINGS {
+        // shear at σ = −5, back, and beyond
+        let mut state = walk(&law, &[[-5e-7, 0.0], [-5e-7, 1e-4]], stepping)[1];
+        let (tau, work) = (state.traction.y, state.fracture_work);
+        let back = Law::Cracking(law).respond(Vector2::new(-5e-7, 1e-4 - 5e-7), &state, stepping).unwrap();
+        assert_eq!((back.stiffness, back.dissipation, back.state.fracture_work), (elastic, 0.0, work));
+        close(back.traction.y, tau - 5.0, 1e-9, "unloading");
+        state = Law::Cracking(law).respond(Vector2::new(-5e-7, 9e-5), &back.state, stepping).unwrap().state;
+        assert!(state.traction.y < 0.0 && state.fracture_work > work && state.status == 2);
+
+        // open, close: compression from the irreversible opening on
+        let open = walk(&law, &[[8e-5, 0.0]], stepping)[0];
+        let closed = Vector2::new(open.jump_plastic.x - 1e-6, 0.0);
+        let response = Law::Cracking(law).respond(closed, &open, stepping).unwrap();
+        close(response.traction.x, -10.0, 1e-9, "closing");
+        assert_eq!((response.stiffness, response.state.fracture_work), (elastic, open.fracture_work));
+    }
+    // and never a negative dissipation on any zigzag
+    let mut random = Random(21);
+    let mut state = State::default();
+    for _ in 0..20_000 {
+        let jump = Vector2::new(random.between(-2e-6, 4e-6), random.between(-2e-5, 2e-5));
+        let response = Law::Cracking(law).respond(jump, &state, STEPPINGS[0]).unwrap();
+        assert!(response.dissipation >= 0.0 && response.state.fracture_work >= state.fracture_work);
+        state = response.state;
+    }
+}
+
+/// Stiffness from soft to nearly rigid changes the opening by σ/K_N and nothing else.
+#[test]
+fn a_nearly_rigid_interface_cracks_like_a_stiff_one() {
+    for stiffness in [1e7, 1e10, 1e13, 1e16] {
+        let law = Cracking { normal_stiffness: stiffness, tangential_stiffness: stiffness, ..EXAMPLE_2 };
+        let state = walk(&law, &[[1e-4, 0.0]], Stepping::Tolerance(1e-6))[0];
+        let plastic = 1e-4 - state.traction.x / stiffness;
+        close(state.traction.x, 3.0 * (-3.0 * plastic / 2e-4).exp(), 1e-5, "σ");
+    }
+}
+
+#[test]
+fn parameters_that_are_no_numbers_are_refused_by_name() {
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        refused(&Cracking { normal_stiffness: bad, ..EXAMPLE_2 }, "normal_stiffness", &[]);
+        refused(&Cracking { tangential_stiffness: bad, ..EXAMPLE_2 }, "tangential_stiffness", &[]);
+        refused(&Cracking { tensile_strength: bad, ..EXAMPLE_2 }, "tensile_strength", &[]);
+        refused(&Cracking { cohesion: bad, ..EXAMPLE_2 }, "cohesion", &[]);
+        refused(&Cracking { tan_friction: bad, ..EXAMPLE_2 }, "tan_friction", &[]);
+        refused(&Cracking { tan_friction_residual: Some(bad), ..EXAMPLE_2 }, "tan_friction_residual", &[]);
+        refused(&Cracking { fracture_energy_i: bad, ..EXAMPLE_2 }, "fracture_energy_i", &[]);
+        refused(&Cracking { fracture_energy_iia: bad, ..EXAMPLE_2 }, "fracture_energy_iia", &[]);
+        refused(&Cracking { dilatancy_stress: bad, ..EXAMPLE_2 }, "dilatancy_stress", &[]);
+    }
+    refused(&Cracking { fracture_energy_i: 0.0, ..EXAMPLE_2 }, "fracture_energy_i", &["0"]);
+    refused(
+        &Cracking { tan_friction_residual: Some(0.9), ..EXAMPLE_2 },
+        "tan_friction_residual",
+        &["0.8785"],
+    );
+    refused(&Cracking { alpha_cohesion: f64::NAN, ..EXAMPLE_2 }, "alpha_cohesion", &[]);
+}
