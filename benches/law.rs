@@ -19,7 +19,7 @@ const LAW: Cracking = Cracking {
     tan_friction_residual: None,
     fracture_energy_i: 2e-4,
     fracture_energy_iia: 2e-3,
-    dilatancy_stress: 20.0,
+    dilatancy_stress: 500.0,
     alpha_tensile_strength: 0.0,
     alpha_cohesion: 0.0,
     alpha_tan_friction: 0.0,

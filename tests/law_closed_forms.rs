@@ -10,7 +10,7 @@
 //! one Euler step      W = (W_n + χ₀u^p)/(1 + χ₀u^p/G_I)
 //! σ held at 0         u_t^p = ∫ dW/√(χt(2c−χt)),  τ = 0 at W = G_I
 //! ```
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod law_help;
 

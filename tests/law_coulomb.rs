@@ -4,7 +4,7 @@
 //! |τ| ≤ c − μσ;  first slip at μ|σ|/K_T;  a cycle ±A dissipates 4 μ|σ| (A − μ|σ|/K_T)
 //! with dilatancy at fixed opening  |Δr_t^p| = (|τ_trial| + μ σ_trial − c)/(K_T + μ K_N tanψ)
 //! ```
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod law_help;
 

@@ -2,7 +2,7 @@
 //!
 //! Friction from none to a great deal, no strength at all, vertex outside, energies too small and too large, energies
 //! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod law_help;
 

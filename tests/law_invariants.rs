@@ -2,7 +2,7 @@
 //!
 //! A million random steps of random laws, small and enormous: F ≤ 0 to rounding, σ ≤ χ, W and the dissipation never
 //! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod law_help;
 

@@ -1,5 +1,5 @@
 //! Claim: a point can be driven by jump or by traction in either component, and says so when it cannot.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 mod law_help;
 

@@ -22,8 +22,8 @@ impl Elastic {
     #[inline]
     pub fn traction(&self, jump: Vector2<f64>, initial: Vector2<f64>) -> Vector2<f64> {
         Vector2::new(
-            self.normal_stiffness.mul_add(jump.x, initial.x),
-            self.tangential_stiffness.mul_add(jump.y, initial.y),
+            self.normal_stiffness * jump.x + initial.x,
+            self.tangential_stiffness * jump.y + initial.y,
         )
     }
 

@@ -1,5 +1,5 @@
 //! What the tests of the laws share: reference curves, parameter sets, a fixed stream of random numbers.
-#![allow(dead_code, missing_docs)] // each test takes what it needs
+#![allow(dead_code, missing_docs, clippy::unwrap_used)] // each test takes what it needs
 
 use midplane::law::path::{Path, Row, drive};
 use midplane::law::{Cracking, Law, State, Stepping};

@@ -67,6 +67,9 @@ fn shape(xi: f64, e: f64) -> (f64, f64) {
         return (0.0, 0.0);
     }
     let xi = xi.max(0.0);
+    if e == 1.0 {
+        return (1.0 - xi, 1.0); // the usual α = 0 needs no division
+    }
     let d = (1.0 - xi) + e * xi;
     ((1.0 - xi) / d, e / (d * d))
 }
