@@ -98,7 +98,8 @@ def draw_curve(axes, rows, component, name, symbol):
             x[3 * k : 3 * k + 2], y[3 * k : 3 * k + 2] = jump[k - 1 : k + 1], traction[k - 1 : k + 1]
         if np.isfinite(x).any():
             axes.plot(x, y, color=colour, lw=1.8, label=STATUS[kind])
-    axes.plot(jump, traction, ".", color="k", ms=2.5, zorder=3)
+    if len(jump) <= 60:
+        axes.plot(jump, traction, ".", color="k", ms=3, zorder=3)
     axes.ticklabel_format(axis="x", style="sci", scilimits=(-2, 3))
     axes.set(xlabel=f"{name} jump", ylabel=f"{name} traction {symbol}")
 
@@ -117,11 +118,11 @@ def main():
     rows = read("/dev/stdin" if arguments.csv == "-" else arguments.csv)
     if len(rows) < 2:
         raise SystemExit(f"{arguments.csv}: a path needs two rows or more")
-    scale, label = 1.0, "fracture work W"
+    scale, label = 1.0, "fracture work $W$"
     if arguments.scene:
         mode_i, _ = energies(arguments.scene, arguments.interface)
         if mode_i:
-            scale, label = mode_i, "fracture work W / G_I"
+            scale, label = mode_i, "fracture work $W / G_I$"
     work = rows["fracture_work"] / scale
     cmap, norm = matplotlib.colormaps["viridis"], Normalize(0, max(work.max(), 1e-300))
 

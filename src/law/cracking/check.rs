@@ -4,6 +4,7 @@
 //! b(W) = c − χ tanφ ≥ 0 for all W        else the vertex lies beyond the asymptotes
 //! K_N > χ₀² e^{|α|} / G_I                else pure tension snaps back at a point
 //! K_T well above c₀² e^{|α|} / G_II and χ₀ tanφ₀ c₀ e^{|α|} / G_I      rule of thumb for shear: a warning
+//! K_T > |σ| c₀ (tanφ₀ − tanφ_r) e^{|α|} / G_II                        the same for the loss of friction
 //! ```
 
 use super::super::admissible::{Inadmissible, not_negative, positive, refuse};
@@ -17,6 +18,8 @@ const ROUNDING: f64 = 1e-12;
 const SAMPLES: usize = 1000;
 /// "Well above" in the rule of thumb for K_T.
 const WELL_ABOVE: f64 = 2.0;
+/// Compressions up to this many cohesions are taken to occur.
+const HIGH_COMPRESSION: f64 = 10.0;
 
 impl Cracking {
     /// Every inequality the parameters must satisfy; the first broken one is named with its numbers.
@@ -57,15 +60,26 @@ impl Cracking {
             }
             false => 0.0,
         };
+        let mut warnings = Vec::new();
         let least = WELL_ABOVE * cohesion_loss.max(tensile_loss);
-        if kt >= least {
-            return Vec::new();
-        }
-        vec![format!(
+        if kt < least {
+            warnings.push(format!(
             "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
              chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in \
              shear; {least:.2e} or more is safer"
-        )]
+            ));
+        }
+        let friction_loss = self.tan_friction - self.tan_friction_residual.unwrap_or(self.tan_friction);
+        let steepest = c * friction_loss * self.alpha_tan_friction.abs().exp();
+        let highest = kt * self.fracture_energy_iia / steepest; // infinite without a loss
+        if highest < HIGH_COMPRESSION * c {
+            warnings.push(format!(
+                "under compression above tangential_stiffness * fracture_energy_iia / (cohesion * (tan_friction - \
+                 tan_friction_residual) * e^|alpha|) = {highest:.3e} the loss of friction alone may make the traction \
+                 leap in shear; raise tangential_stiffness if the joint will carry that"
+            ));
+        }
+        warnings
     }
 
     fn exponents(&self) -> [(&'static str, f64); 5] {

@@ -13,6 +13,7 @@
 //! modes; the shapes S, the factors of f and the work follow the literature it cites.
 
 mod check;
+mod control;
 mod flow;
 mod march;
 mod nested;
@@ -132,7 +133,7 @@ impl Cracking {
     /// What separates two states, as an error of the traction [stress]: in traction, strength and jump.
     pub(super) fn misfit(&self, a: &State, b: &State) -> f64 {
         let surface = Surface::new(self);
-        let loss = (surface.chi0 * surface.per_gf_i).max(surface.c0 * surface.per_gf_iia);
+        let loss = surface.loss();
         (a.traction - b.traction)
             .amax()
             .max((a.fracture_work - b.fracture_work).abs() * loss)

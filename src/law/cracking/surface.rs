@@ -133,6 +133,11 @@ impl Surface {
         (left, slope / self.sigma_dil)
     }
 
+    /// Fastest loss of strength per irreversible jump, of the strength (α = 0) [1 / length].
+    pub fn loss(&self) -> f64 {
+        (self.chi0 * self.per_gf_i).max(self.c0 * self.per_gf_iia)
+    }
+
     /// The larger of tensile strength and cohesion: what tolerances are relative to [stress].
     pub fn scale(&self) -> f64 {
         self.chi0.max(self.c0)

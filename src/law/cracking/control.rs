@@ -1,0 +1,169 @@
+//! How long a sub-step may be.
+//!
+//! Each sub-step is done once whole and once in halves; the difference rules the next length. The tolerance ε bounds
+//! the error at the end of a way: a second-order step has a local error of third order, so the local bound is
+//! LOCAL ε^{3/2}, and the number of steps drops out of the sum. Where the flow changes its law (σ passes 0, W passes
+//! an energy) the difference may vanish by chance: such an event is enclosed by halving until the traction changes
+//! little across it.
+
+use nalgebra::Vector2;
+
+use super::flow::Mode;
+use super::march::{Point, Stage};
+use super::surface::Surface;
+
+/// Local bound per ε^{3/2}, of the strength.
+const LOCAL: f64 = 5.0;
+/// First length per √ε, of the length over which the strength is lost.
+const FIRST_LENGTH: f64 = 4.0;
+/// Tolerances below this are rounding.
+const SMALLEST_TOLERANCE: f64 = 1e-14;
+/// Rounding of a step's difference, relative to the tractions in it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// A new length aims at this much less than the bound allows.
+const SAFETY: f64 = 0.85;
+/// The vertex is at the origin but for this part of G_I.
+const AT_ORIGIN: f64 = 1e-10;
+/// Bounds of the change of length from one sub-step to the next.
+const SHRINK: f64 = 0.2;
+const GROW: f64 = 5.0;
+/// A sub-step this short, of the first length, is not divided further.
+const SHORTEST: f64 = 1e-10;
+/// Change of traction in a sub-step across an event, per ε, of the strength.
+const EVENT: f64 = 0.3;
+/// Sub-steps tried before the way counts as a leap, and ten times fewer per 1/√ε.
+const TRIES: usize = 1000;
+/// A straight way meets a handful of events; beyond this number they are rounding.
+const EVENTS: usize = 20;
+/// Part of an energy that counts as all of it: W approaches its limit without end.
+const USED_UP: f64 = 1.0 - 1e-9;
+/// A change of traction within the shortest sub-step that counts as a leap, of the strength.
+const LEAP: f64 = 1e-3;
+/// So many shortest sub-steps may miss the bound before the whole way counts as a leap.
+const LEAPS: usize = 50;
+
+/// A sub-step done in halves.
+pub(super) struct Double {
+    pub length: f64,
+    pub stages: [[Stage; 2]; 2],
+    pub end: Point,
+}
+
+/// Error control under way.
+pub(super) struct Control {
+    bound: f64,
+    event_bound: f64,
+    shortest: f64,
+    length: f64,
+    /// An event lies within the first of these distances; a step across it may have the second as its length.
+    event: Option<(f64, f64)>,
+    /// Sub-steps that may still be tried.
+    tries_left: usize,
+    /// Events met so far.
+    events: usize,
+    /// Shortest sub-steps that still missed the bound.
+    leaps: usize,
+}
+
+impl Control {
+    /// At the onset, with this much of the way ahead.
+    pub fn new(surface: &Surface, tolerance: f64, total: f64) -> Control {
+        let loss = 1.0 / surface.loss(); // infinite if nothing is lost
+        let length = (FIRST_LENGTH * tolerance.max(SMALLEST_TOLERANCE).sqrt() * loss).min(total);
+        let bound = surface.local_bound(tolerance);
+        let strength = if bound.is_finite() { surface.scale() } else { f64::INFINITY };
+        Control {
+            bound,
+            event_bound: EVENT * tolerance.max(SMALLEST_TOLERANCE) * strength,
+            shortest: SHORTEST * length,
+            length,
+            event: None,
+            tries_left: TRIES + (TRIES as f64 * 0.1 / tolerance.max(SMALLEST_TOLERANCE).sqrt()) as usize,
+            events: 0,
+            leaps: 0,
+        }
+    }
+
+    /// The next sub-step, as long as the bound allows; `None` if the traction leaps.
+    pub fn next(
+        &mut self,
+        surface: &Surface,
+        from: &Point,
+        direction: Vector2<f64>,
+        left: f64,
+    ) -> Option<Double> {
+        loop {
+            self.tries_left = self.tries_left.checked_sub(1)?;
+            let length = self.length.min(left);
+            let length = match self.event {
+                Some((beyond, short)) if beyond > short => length.min(0.5 * beyond),
+                Some((beyond, _)) => length.min(beyond),
+                None => length,
+            };
+            let (whole, _) = surface.two_stage_step(from, direction * length);
+            let step = surface.in_halves(from, direction, length);
+            let misfit = (whole.traction - step.end.traction).amax();
+            let strength = (whole.work - step.end.work).abs() * surface.loss();
+            let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
+                + surface.rounding_at_origin(step.end.work);
+            let ratio = misfit.max(strength) / self.bound.max(rounding);
+            let change = (step.end.traction - from.traction).amax();
+            let across = surface.is_across_event(from, &step);
+            if length <= self.shortest {
+                (self.length, self.event) = (GROW * length, None);
+                self.leaps += usize::from(ratio > 1.0);
+                let leap = ratio > 1.0 && (misfit > LEAP * surface.scale() || self.leaps > LEAPS);
+                return (!leap).then_some(step);
+            }
+            if across && change > self.event_bound.max(rounding) && self.events < EVENTS {
+                self.events += usize::from(self.event.is_none());
+                self.event = Some((length, length * self.event_bound / change));
+                continue;
+            }
+            self.length = length * (SAFETY / ratio.cbrt()).clamp(SHRINK, GROW);
+            if ratio <= 1.0 {
+                self.event = match self.event {
+                    Some((beyond, short)) if !across && beyond > length => Some((beyond - length, short)),
+                    _ => None,
+                };
+                return Some(step);
+            }
+        }
+    }
+}
+
+impl Surface {
+    /// Bound of the local error of a sub-step [stress]; without strength (Coulomb friction) one step is exact.
+    pub fn local_bound(&self, tolerance: f64) -> f64 {
+        if self.scale() == 0.0 {
+            return f64::INFINITY;
+        }
+        let tolerance = tolerance.max(SMALLEST_TOLERANCE);
+        LOCAL * tolerance * tolerance.sqrt() * self.scale()
+    }
+
+    /// A sub-step in halves.
+    pub fn in_halves(&self, from: &Point, direction: Vector2<f64>, length: f64) -> Double {
+        let change = direction * (0.5 * length);
+        let (middle, first) = self.two_stage_step(from, change);
+        let (end, second) = self.two_stage_step(&middle, change);
+        Double { length, stages: [first, second], end }
+    }
+
+    /// Rounding of τ where the vertex arrives at the origin: there τ ~ √(1 − W/G_I).
+    fn rounding_at_origin(&self, work: f64) -> f64 {
+        if (1.0 - work * self.per_gf_i).abs() > AT_ORIGIN {
+            return 0.0;
+        }
+        self.scale() * (ROUNDING * self.e_chi.max(1.0 / self.e_chi)).sqrt()
+    }
+
+    /// Whether the flow changes its law within a step: another mode, or an energy used up.
+    fn is_across_event(&self, from: &Point, step: &Double) -> bool {
+        let mode = step.end.mode;
+        let used_up = |w: f64| [w * self.per_gf_i >= USED_UP, w * self.per_gf_iia >= USED_UP];
+        (from.mode != Mode::Elastic && from.mode != mode)
+            || step.stages.iter().flatten().any(|stage| stage.mode() != mode)
+            || used_up(from.work) != used_up(step.end.work)
+    }
+}
