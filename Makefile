@@ -69,6 +69,12 @@ test: | tools     ## all tests, in release, so that dependencies compile once
 bench:            ## times of the linear path by stage, 100 000 dofs (all sizes: cargo bench --bench large)
 	cargo bench --locked --bench large -- 100000
 
+verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
+	@rm -rf results/verify && mkdir -p results/verify
+	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test example1 --test patch --test verify
+	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
+	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
+
 lint:             ## format and clippy, warnings are errors
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
@@ -89,4 +95,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 16
 
-.PHONY: all tools build test bench lint docs clean help
+.PHONY: all tools build test bench verify lint docs clean help

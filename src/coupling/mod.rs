@@ -34,8 +34,10 @@ use crate::error::Result;
 /// How the sides are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Jump projected on the mid-plane's own grid.
+    /// Jump projected on the mid-plane's own grid, quadratic where both sides are.
     Projected,
+    /// The same on a linear grid, whatever the sides.
+    ProjectedLinear,
     /// Jump at quadrature points of every segment.
     Pointwise,
 }
@@ -88,7 +90,8 @@ impl Coupling {
     pub fn build(name: &str, a: Side, b: Side, kind: Kind, points: Points) -> Result<Coupling> {
         let midplane = Midplane::build(name, a, b)?;
         Ok(match kind {
-            Kind::Projected => projected::build(midplane, points),
+            Kind::Projected => projected::build(midplane, points, true),
+            Kind::ProjectedLinear => projected::build(midplane, points, false),
             Kind::Pointwise => pointwise::build(midplane, points),
         })
     }

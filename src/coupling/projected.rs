@@ -5,7 +5,7 @@
 //! ```
 //!
 //! q runs over quadrature points of the segments, φ_i are the continuous functions of the grid (quadratic where both sides
-//! have quadratic edges, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
+//! have quadratic edges and it is asked for, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
 
 use super::banded::Banded;
@@ -15,9 +15,9 @@ use crate::shape::{GAUSS_2, GAUSS_3, lagrange2, lagrange3};
 /// Entries of G below this are dropped. Of the largest in their row.
 const NEGLIGIBLE: f64 = 1e-17;
 
-pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
+pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -> Coupling {
     let components = 2;
-    let quadratic = midplane.a.is_quadratic() && midplane.b.is_quadratic();
+    let quadratic = allow_quadratic && midplane.a.is_quadratic() && midplane.b.is_quadratic();
     let grid = Grid { ends: grid::nodes(&midplane), quadratic };
     let (nodes, band) = (grid.nodes(), grid.order());
     let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());

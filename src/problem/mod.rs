@@ -100,8 +100,16 @@ fn join(scene: &Scene, model: &Model, name: &str, interface: &scene::Interface) 
         Side { name: name.as_str(), points: &model.bodies[*body].mesh.points, edges: edges.as_slice() }
     };
     let kind = match interface.coupling {
-        scene::CouplingKind::Projected => Kind::Projected,
         scene::CouplingKind::Pointwise => Kind::Pointwise,
+        scene::CouplingKind::Projected => match interface.grid {
+            scene::Grid::Quadratic => Kind::Projected,
+            scene::Grid::Auto
+                if sides.iter().all(|(body, _, edges)| on_quadrilaterals(model, *body, edges)) =>
+            {
+                Kind::Projected
+            }
+            scene::Grid::Auto | scene::Grid::Linear => Kind::ProjectedLinear,
+        },
     };
     let points = match interface.quadrature {
         scene::Quadrature::Gauss => Points::Gauss,
@@ -111,6 +119,11 @@ fn join(scene: &Scene, model: &Model, name: &str, interface: &scene::Interface) 
     let bodies = [sides[0].0, sides[1].0];
     let first = bodies.map(|body| model.bodies[body].first_node);
     Ok(Joint::new(name, coupling, bodies, first, model.dofs(), model.thickness))
+}
+
+/// True if all cells along a side are quadrilaterals.
+fn on_quadrilaterals(model: &Model, body: usize, edges: &[Edge]) -> bool {
+    edges.iter().all(|edge| model.bodies[body].mesh.cells.shapes[edge.cell].corners() == 4)
 }
 
 /// K_N h/E of a joint: the larger of the two edges meeting, the smaller E, maximum along the joint.

@@ -109,6 +109,9 @@ pub struct Interface {
     /// How the unmatched sides are joined.
     #[serde(default)]
     pub coupling: CouplingKind,
+    /// Polynomial order of the grid of `projected`.
+    #[serde(default)]
+    pub grid: Grid,
     /// Where in its interval the law acts.
     #[serde(default)]
     pub quadrature: Quadrature,
@@ -141,6 +144,19 @@ pub enum CouplingKind {
     Projected,
     /// The law acts at points of every segment (paper eq. 14); exact to the paper, fragile when stiff.
     Pointwise,
+}
+
+/// Polynomial order of the grid of `projected`. A side with linear edges always makes it linear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Grid {
+    /// Quadratic between quadratic quadrilaterals, else linear: the trace of a T6 mesh does not bear a quadratic traction.
+    #[default]
+    Auto,
+    /// Linear, two law points per cell.
+    Linear,
+    /// Quadratic, three law points per cell.
+    Quadratic,
 }
 
 /// Quadrature along the mid-plane.

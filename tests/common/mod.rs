@@ -79,7 +79,7 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
             let [a, b, c, d] = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
             match shape {
                 Shape::Quadrilateral4 => cells.push(shape, &[a, b, c, d]),
-                Shape::Triangle3 if (i + j) % 2 == 0 => {
+                Shape::Triangle3 if j % 2 == 0 => {
                     cells.push(shape, &[a, b, c]);
                     cells.push(shape, &[a, c, d]);
                 }
