@@ -105,7 +105,7 @@ impl Control {
             let misfit = (whole.traction - step.end.traction).amax();
             let strength = (whole.work - step.end.work).abs() * surface.loss();
             let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
-                + surface.rounding_at_origin(step.end.work);
+                + surface.rounding_near_vertex(&step.end);
             let ratio = misfit.max(strength) / self.bound.max(rounding);
             let change = (step.end.traction - from.traction).amax();
             let across = surface.is_across_event(from, &step);
@@ -150,12 +150,18 @@ impl Surface {
         Double { length, stages: [first, second], end }
     }
 
-    /// Rounding of τ where the vertex arrives at the origin: there τ ~ √(1 − W/G_I).
-    fn rounding_at_origin(&self, work: f64) -> f64 {
-        if (1.0 - work * self.per_gf_i).abs() > AT_ORIGIN {
-            return 0.0;
+    /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
+    /// to its root where τ vanishes.
+    fn rounding_near_vertex(&self, end: &Point) -> f64 {
+        let largest = self.scale() * (ROUNDING * self.e_chi.max(1.0 / self.e_chi)).sqrt();
+        if (1.0 - end.work * self.per_gf_i).abs() <= AT_ORIGIN {
+            return largest;
         }
-        self.scale() * (ROUNDING * self.e_chi.max(1.0 / self.e_chi)).sqrt()
+        let tau = end.traction.y.abs();
+        if end.mode == Mode::Sliding && tau > 0.0 {
+            return largest.min(ROUNDING * self.scale() * (self.scale() / tau));
+        }
+        0.0
     }
 
     /// Whether the flow changes its law within a step: another mode, or an energy used up.
