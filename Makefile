@@ -18,7 +18,7 @@ SCENES := $(patsubst geo/%/scene.json,%,$(wildcard geo/*/scene.json))
 # variants $1: names of the results of a scene's other scene files
 variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json,$(wildcard geo/$1/*.json)))
 
-all: $(SCENES)    ## build, solve every scene of the gallery, check the results, draw the pictures
+all: $(SCENES) law  ## build, solve every scene of the gallery, check the results, draw the pictures
 	@echo "up to date: results/<scene>/, its pictures in results/<scene>/pictures/"
 
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
@@ -47,6 +47,12 @@ $(foreach variant,$(call variants,$1),
 $(call results,$(variant),$1,geo/$1/$(variant:$1_%=%).json,))
 endef
 $(foreach name,$(SCENES),$(eval $(call scene,$(name))))
+
+law: results/law/shear.png  ## drive one point of the cracking law along geo/shear/path.json and draw it
+results/law/shear.png: geo/shear/law.json geo/shear/path.json pipeline/law_path.py $(MIDPLANE) $(VENV)
+	@mkdir -p results/law
+	$(MIDPLANE) law geo/shear/law.json joint geo/shear/path.json --tolerance 1e-6 > results/law/shear.csv
+	$(PYTHON) pipeline/law_path.py results/law/shear.csv --scene geo/shear/law.json --interface joint -o $@
 
 $(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
 	cargo build --release --locked
@@ -79,10 +85,11 @@ lint:             ## format and clippy, warnings are errors
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
 
-docs: $(SCENES)   ## renew the pictures of the README
+docs: $(SCENES) law   ## renew the pictures of the README
 	cp results/compression/pictures/coupling_joint.png docs/compression_coupling.png
 	cp results/compression/pictures/principal_stress.png docs/compression_stress.png
 	cp results/cantilever/pictures/traction_joint.png docs/cantilever_traction.png
+	cp results/law/shear.png docs/law_shear.png
 
 clean:            ## remove everything made here: results, build, Python environment
 	rm -rf results .venv
@@ -95,4 +102,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 16
 
-.PHONY: all tools build test bench verify lint docs clean help
+.PHONY: all tools build test bench law verify lint docs clean help
