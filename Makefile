@@ -72,8 +72,9 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
 
-bench:            ## times of the linear path by stage, 100 000 dofs (all sizes: cargo bench --bench large)
+bench:            ## the linear path by stage at 100 000 dofs (all sizes: cargo bench --bench large); ns of the laws
 	cargo bench --locked --bench large -- 100000
+	cargo bench --locked --bench law
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify

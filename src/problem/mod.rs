@@ -23,6 +23,11 @@ use crate::law::Law;
 use crate::mesh::{Edge, Mesh};
 use crate::scene::{self, Scene};
 
+/// K_N h/E times the machine's ε from which rounding is seen in the tractions.
+const ROUNDING_SEEN: f64 = 1e-6;
+/// The same from which nothing else is left.
+const ROUNDING_RULES: f64 = 1e-3;
+
 /// Everything the run needs, with no names left to resolve.
 #[derive(Debug)]
 pub struct Problem {
@@ -53,6 +58,7 @@ impl Problem {
         let mut laws = Vec::new();
         for (name, interface) in &scene.interfaces {
             let joint = join(scene, &model, name, interface)?;
+            refuse_beyond_precision(scene, &model, &joint, interface)?;
             warnings.extend(joint_warnings(&model, &joint, interface));
             laws.push((interface.law, InitialTraction::bind(scene, name, interface, &joint)?));
             model.joints.push(joint);
@@ -136,6 +142,24 @@ pub fn stiffness_number(model: &Model, joint: &Joint, law: &Law) -> f64 {
     law.elastic_stiffness()[0] * lengths.fold(0.0, f64::max) / young[0].min(young[1])
 }
 
+/// A stiffness whose springs are nothing but rounding is refused.
+fn refuse_beyond_precision(
+    scene: &Scene,
+    model: &Model,
+    joint: &Joint,
+    interface: &scene::Interface,
+) -> Result<()> {
+    let number = stiffness_number(model, joint, &interface.law);
+    if number * f64::EPSILON <= ROUNDING_RULES {
+        return Ok(());
+    }
+    let [kn, _] = interface.law.elastic_stiffness();
+    let largest = kn * ROUNDING_SEEN / (number * f64::EPSILON);
+    let what = format!("K_N h/E = {number:.1e} is beyond double precision");
+    let cure = format!("take {largest:.0e} or less: stiffer springs change nothing but the rounding");
+    Err(scene.source.refuse(&["interfaces", &joint.name, "law", "normal_stiffness"], what, cure))
+}
+
 fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) -> Vec<String> {
     let mut warnings = Vec::new();
     let midplane = &joint.coupling.midplane;
@@ -143,6 +167,13 @@ fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) ->
     let matched =
         midplane.segments.len() == midplane.a.edges() && midplane.segments.len() == midplane.b.edges();
     let number = stiffness_number(model, joint, &interface.law);
+    if number * f64::EPSILON > ROUNDING_SEEN {
+        warnings.push(format!(
+            "interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions; less stiff springs say as much"
+        ));
+    }
+    warnings
+        .extend(interface.law.warnings().into_iter().map(|warning| format!("interface {name}: {warning}")));
     if interface.coupling == scene::CouplingKind::Pointwise && !matched && number > 1.0 {
         warnings.push(format!(
             "interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates; use \"projected\""
