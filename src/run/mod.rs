@@ -75,7 +75,7 @@ pub type Listener<'a> = &'a mut dyn FnMut(Event);
 pub struct Done {
     /// The results folder.
     pub folder: PathBuf,
-    /// The collection to open.
+    /// The collection to open, or the folder if no fields are written.
     pub collection: PathBuf,
     /// Seconds by stage.
     pub clock: Clock,
@@ -137,6 +137,9 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
     if let (Some(writer), Some(balance)) = (&writer, balance) {
         writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock))?;
     }
-    let collection = path.join(format!("{name}.pvd"));
+    let collection = match scene.output.fields {
+        Fields::None => path.clone(),
+        _ => path.join(format!("{name}.pvd")),
+    };
     Ok(Done { folder: path, collection, clock, peak_memory: memory::peak() })
 }
