@@ -7,7 +7,7 @@ use crate::continuum::{Stresses, recover};
 use crate::error::{Error, Result};
 use crate::output::Snapshot;
 use crate::problem::{ProbeInput, Problem, Stage};
-use crate::solver::{Linear, Solution, Symbolic, System, TooLarge};
+use crate::solver::{Linear, Plan, Solution, System, TooLarge};
 
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
@@ -16,6 +16,8 @@ pub struct Totals {
     pub increments: usize,
     /// Factorisations.
     pub factorisations: usize,
+    /// How the matrix is factored.
+    pub strategy: &'static str,
     /// Entries of one factor.
     pub factor_entries: usize,
     /// Largest componentwise backward error max |r| / (|A| |u| + |f|).
@@ -96,11 +98,12 @@ pub fn march_within(
         System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
     let initial = initial_force(problem);
     begin(clock, "order");
-    let symbolic = Symbolic::analyse(&pattern, &model.coordinates())
-        .map_err(|TooLarge| memory::too_large(model.dofs()))?;
-    memory::refuse(model.dofs(), symbolic.entries(), memory::needed(&symbolic, &pattern), available)?;
+    let plan =
+        Plan::analyse(&pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(model.dofs()))?;
+    memory::refuse(model.dofs(), plan.entries(), memory::needed(&plan, &pattern), available)?;
 
-    let mut totals = Totals { factor_entries: symbolic.entries(), ..Totals::default() };
+    let mut totals =
+        Totals { strategy: plan.strategy(), factor_entries: plan.entries(), ..Totals::default() };
     let mut state = State::unloaded(problem);
     let mut factored: Option<(&[bool], Linear)> = None;
     for (step, stage) in problem.stages.iter().enumerate() {
@@ -109,7 +112,7 @@ pub fn march_within(
             None => {
                 begin(clock, "factor");
                 totals.factorisations += 1;
-                let linear = Linear::new(&system, &symbolic, &stage.held);
+                let linear = Linear::new(&system, &plan, &stage.held);
                 factored.insert((&stage.held, linear.map_err(|_| singular(stage, totals.increments))?))
             }
         };

@@ -57,6 +57,8 @@ struct Solution {
     increments: usize,
     iterations: usize,
     factorisations: usize,
+    /// "joined" or "in parts".
+    strategy: &'static str,
     factor_entries: usize,
     /// Largest componentwise backward error max |r| / (|A| |u| + |f|) of all increments.
     backward_error: f64,
@@ -142,6 +144,7 @@ pub(super) fn summary<'a>(
             increments: totals.increments,
             iterations: 0,
             factorisations: totals.factorisations,
+            strategy: totals.strategy,
             factor_entries: totals.factor_entries,
             backward_error: totals.backward_error,
         },

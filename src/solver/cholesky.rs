@@ -1,20 +1,21 @@
 //! Sparse Cholesky with faer: analysed once per pattern, factored once per set of supports.
 //!
-//! A model is one matrix and has one factor. Its joints tie all bodies together, so that there is nothing to factor side
-//! by side but the subtrees of the elimination tree, and faer walks these one after the other; the fronts of a plane
-//! model are too small for threads inside its dense kernels to gain anything.
+//! This is the factorisation of a small model and of every part of a large one (`parts`): faer walks the subtrees of the
+//! elimination tree one after the other, and the fronts of a plane model are too small for threads inside its dense
+//! kernels to gain anything.
 //!
 //! Indices are 32 bits wide, half the memory of the usual ones: a factor has at most 2³¹ entries, which is 17 GB.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Conj, MatMut, MatRef, Par, Side};
 
 use super::{Order, nested_dissection};
 use crate::assembly::{Pattern, Symmetric};
@@ -23,7 +24,7 @@ use crate::assembly::{Pattern, Symmetric};
 const SMALL: usize = 1000;
 /// Up to this many both orders are made, which costs little, and the better is taken: separators across a joint, whose
 /// coupling reaches some thirty nodes along it, weigh more the smaller the model is.
-const MEDIUM: usize = 50_000;
+pub(super) const MEDIUM: usize = 50_000;
 
 /// The factorisation's plan for one pattern.
 #[derive(Debug)]
@@ -50,7 +51,11 @@ impl Symbolic {
     /// Orders and analyses a pattern. `coordinates` are those of its nodes, one node after the other.
     pub fn analyse(pattern: &Pattern, coordinates: &[f64]) -> Result<Symbolic, TooLarge> {
         if pattern.size() <= SMALL {
-            return Symbolic::plan(pattern, SymmetricOrdering::Amd, CholeskySymbolicParams::default());
+            return Symbolic::plan(
+                structure(pattern),
+                SymmetricOrdering::Amd,
+                CholeskySymbolicParams::default(),
+            );
         }
         let dissected = Symbolic::with_order(pattern, &nested_dissection(pattern, coordinates))?;
         if pattern.size() > MEDIUM {
@@ -63,20 +68,28 @@ impl Symbolic {
     /// Analyses a pattern in a given order.
     pub fn with_order(pattern: &Pattern, order: &Order) -> Result<Symbolic, TooLarge> {
         let order = PermRef::new_checked(&order.forward, &order.inverse, pattern.size());
-        Symbolic::plan(pattern, SymmetricOrdering::Custom(order), supernodal())
+        Symbolic::plan(structure(pattern), SymmetricOrdering::Custom(order), supernodal())
     }
 
     /// Analyses a pattern in the order of approximate minimum degree: the yardstick for other orders.
     pub fn minimum_degree(pattern: &Pattern) -> Result<Symbolic, TooLarge> {
-        Symbolic::plan(pattern, SymmetricOrdering::Amd, supernodal())
+        Symbolic::plan(structure(pattern), SymmetricOrdering::Amd, supernodal())
+    }
+
+    /// Analyses the lower triangle of a matrix whose order is good as it is.
+    pub(super) fn as_is(lower: SymbolicSparseColMatRef<'_, u32>) -> Result<Symbolic, TooLarge> {
+        // faer's own `Identity` would read an upper triangle
+        let same: Vec<u32> = (0..lower.ncols() as u32).collect();
+        let order = PermRef::new_checked(&same, &same, same.len());
+        Symbolic::plan(lower, SymmetricOrdering::Custom(order), supernodal())
     }
 
     fn plan(
-        pattern: &Pattern,
+        lower: SymbolicSparseColMatRef<'_, u32>,
         order: SymmetricOrdering<u32>,
         params: CholeskySymbolicParams,
     ) -> Result<Symbolic, TooLarge> {
-        let plan = factorize_symbolic_cholesky(structure(pattern), Side::Lower, order, params);
+        let plan = factorize_symbolic_cholesky(lower, Side::Lower, order, params);
         plan.map(|plan| Symbolic { plan }).map_err(|_| TooLarge)
     }
 
@@ -110,14 +123,23 @@ impl Symbolic {
 
     /// Factors a matrix on the pattern that was analysed.
     pub fn factor(&self, pattern: &Pattern, matrix: &Symmetric) -> Result<Cholesky<'_>, NotPositiveDefinite> {
-        let a = SparseColMatRef::new(structure(pattern), matrix.values.as_slice());
+        let values =
+            self.factor_values(SparseColMatRef::new(structure(pattern), matrix.values.as_slice()))?;
+        Ok(Cholesky { symbolic: self, values })
+    }
+
+    /// Values of L for the lower triangle of a matrix.
+    pub(super) fn factor_values(
+        &self,
+        lower: SparseColMatRef<'_, u32, f64>,
+    ) -> Result<Vec<f64>, NotPositiveDefinite> {
         let mut values = vec![0.0; self.plan.len_val()];
         let scratch = self.plan.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
         let mut memory = MemBuffer::new(scratch);
         self.plan
             .factorize_numeric_llt(
                 &mut values,
-                a,
+                lower,
                 Side::Lower,
                 Default::default(),
                 Par::Seq,
@@ -125,7 +147,25 @@ impl Symbolic {
                 Default::default(),
             )
             .map_err(|_| NotPositiveDefinite)?;
-        Ok(Cholesky { symbolic: self, values })
+        Ok(values)
+    }
+
+    /// Supernodes of L in the order of elimination, each with its first column, its columns and the rows below its
+    /// triangle; none in a plan that is not supernodal.
+    pub(super) fn supernodes<'a>(
+        &'a self,
+        values: &'a [f64],
+    ) -> impl DoubleEndedIterator<Item = (usize, MatRef<'a, f64>, &'a [u32])> {
+        let plan = match self.plan.raw() {
+            SymbolicCholeskyRaw::Supernodal(plan) => Some(plan),
+            SymbolicCholeskyRaw::Simplicial(_) => None,
+        };
+        plan.into_iter().flat_map(move |plan| {
+            (0..plan.n_supernodes()).map(move |k| {
+                let supernode = SupernodalLltRef::new(plan, values).supernode(k);
+                (supernode.start(), supernode.val(), supernode.pattern())
+            })
+        })
     }
 }
 

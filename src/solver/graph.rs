@@ -6,6 +6,7 @@ use crate::assembly::Pattern;
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Neighbours of every node, without itself.
+#[derive(Debug)]
 pub(super) struct Graph {
     offsets: Vec<usize>,
     neighbours: Vec<u32>,

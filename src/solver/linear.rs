@@ -4,7 +4,7 @@
 //! (K + Σ GᵀTG) u = f      u = ū where held      reaction = K u + Gᵀ q − f where held
 //! ```
 
-use super::{Cholesky, NotPositiveDefinite, Symbolic};
+use super::{Factor, NotPositiveDefinite, Plan};
 use crate::assembly::{Joint, Pattern, Symmetric};
 
 /// Refinement ends at this backward error, or where it no longer halves.
@@ -31,7 +31,7 @@ pub struct Linear<'a> {
     system: &'a System<'a>,
     held: Vec<bool>,
     total: Symmetric,
-    factor: Cholesky<'a>,
+    factor: Factor<'a>,
 }
 
 /// An answer of the linear system.
@@ -49,7 +49,7 @@ impl<'a> Linear<'a> {
     /// Factors the system with the dofs in `held` prescribed.
     pub fn new(
         system: &'a System<'a>,
-        symbolic: &'a Symbolic,
+        plan: &'a Plan,
         held: &[bool],
     ) -> Result<Linear<'a>, NotPositiveDefinite> {
         let mut total = system.continuum.clone();
@@ -57,7 +57,7 @@ impl<'a> Linear<'a> {
             joint.add_stiffness(system.pattern, stiffness, &mut total);
         }
         let taken = total.hold(system.pattern, held);
-        let factor = symbolic.factor(system.pattern, &total)?;
+        let factor = plan.factor(system.pattern, &total)?;
         total.release(&taken);
         Ok(Linear { system, held: held.to_vec(), total, factor })
     }

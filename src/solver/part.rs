@@ -1,0 +1,175 @@
+//! One part of a matrix with the border it touches: its factor, what it adds to the border, and both substitutions.
+//!
+//! ```text
+//!   [A Bᵀ; B C] = [L 0; M N] [L 0; M N]ᵀ      A = L Lᵀ      M = B L⁻ᵀ      N Nᵀ − C = −B A⁻¹ Bᵀ
+//! ```
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+
+use super::graph::Graph;
+use super::{NotPositiveDefinite, Symbolic};
+use crate::assembly::{Pattern, Symmetric};
+
+/// A part with its border.
+#[derive(Debug)]
+pub(super) struct Part {
+    /// [Aₚ Bₚᵀ; Bₚ C], the border last.
+    pub(super) block: Block,
+    /// Number of dofs before those of the border.
+    pub(super) inner: usize,
+    /// Place of its border dofs in the whole border.
+    pub(super) border: Vec<u32>,
+    pub(super) plan: Symbolic,
+}
+
+/// The lower triangle of a principal submatrix.
+#[derive(Debug)]
+pub(super) struct Block {
+    /// Its dofs in the whole matrix.
+    pub(super) dofs: Vec<u32>,
+    offsets: Vec<u32>,
+    rows: Vec<u32>,
+    /// Place of every entry in the values of the whole matrix.
+    pub(super) source: Vec<u32>,
+}
+
+impl Block {
+    /// Of the dofs of some nodes; `local` is the place of a node among them.
+    pub(super) fn new(
+        pattern: &Pattern,
+        graph: &Graph,
+        nodes: &[u32],
+        local: impl Fn(u32) -> Option<u32>,
+    ) -> Block {
+        let c = pattern.components() as u32;
+        let dofs = nodes.iter().flat_map(|&node| c * node..c * (node + 1)).collect();
+        let (mut offsets, mut rows, mut source) = (vec![0], Vec::new(), Vec::new());
+        let mut below = Vec::new();
+        for (k, &node) in (0..).zip(nodes) {
+            below.clear();
+            below.push((k, node));
+            below.extend(
+                graph
+                    .of(node)
+                    .iter()
+                    .filter_map(|&other| Some((local(other)?, other)))
+                    .filter(|(i, _)| *i > k),
+            );
+            below.sort_unstable();
+            for b in 0..c as usize {
+                for &(i, other) in &below {
+                    let at = pattern.block(other.max(node) as usize, other.min(node) as usize);
+                    for a in if i == k { b } else { 0 }..c as usize {
+                        rows.push(c * i + a as u32);
+                        source.push((if other >= node { at[b] + a } else { at[a] + b }) as u32);
+                    }
+                }
+                offsets.push(rows.len() as u32);
+            }
+        }
+        Block { dofs, offsets, rows, source }
+    }
+
+    /// Where it has entries.
+    pub(super) fn structure(&self) -> SymbolicSparseColMatRef<'_, u32> {
+        let n = self.dofs.len();
+        SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
+    }
+
+    /// Visits the entries of the columns from one on, as (row, column, value).
+    pub(super) fn visit(&self, matrix: &Symmetric, from: usize, mut entry: impl FnMut(usize, usize, f64)) {
+        for j in from..self.dofs.len() {
+            for at in self.offsets[j] as usize..self.offsets[j + 1] as usize {
+                entry(self.rows[at] as usize, j, matrix.values[self.source[at] as usize]);
+            }
+        }
+    }
+}
+
+impl Part {
+    /// L and −B A⁻¹ Bᵀ.
+    pub(super) fn factor(&self, matrix: &Symmetric) -> Result<(Vec<f64>, Mat<f64>), NotPositiveDefinite> {
+        let entries: Vec<f64> = self.block.source.iter().map(|&at| matrix.values[at as usize]).collect();
+        let values = self.plan.factor_values(SparseColMatRef::new(self.block.structure(), &entries))?;
+        drop(entries);
+        let m = self.border.len();
+        let mut l = Mat::zeros(m, m);
+        for (start, columns, below) in self.plan.supernodes(&values) {
+            let width = columns.ncols();
+            for j in self.inner.saturating_sub(start)..width {
+                for i in j..columns.nrows() {
+                    let row = if i < width { start + i } else { below[i - width] as usize };
+                    l[(row - self.inner, start + j - self.inner)] = columns[(i, j)];
+                }
+            }
+        }
+        let mut s = Mat::zeros(m, m);
+        triangular::matmul(
+            &mut s,
+            BlockStructure::TriangularLower,
+            Accum::Replace,
+            &l,
+            BlockStructure::TriangularLower,
+            l.transpose(),
+            BlockStructure::TriangularUpper,
+            1.0,
+            Par::Seq,
+        );
+        self.block.visit(matrix, self.inner, |i, j, value| s[(i - self.inner, j - self.inner)] -= value);
+        Ok((values, s))
+    }
+
+    /// The part's own columns of L by supernodes: the first, the triangle, what is below it and the rows of that.
+    fn own<'a>(&'a self, values: &'a [f64]) -> impl DoubleEndedIterator<Item = Own<'a>> {
+        self.plan.supernodes(values).filter(|(start, ..)| *start < self.inner).map(|(start, l, below)| {
+            let width = l.ncols().min(self.inner - start);
+            let rows = (start + width..start + l.ncols()).chain(below.iter().map(|&row| row as usize));
+            let (triangle, rest) = l.subcols(0, width).split_at_row(width);
+            Own { start, triangle, rest, rows: rows.collect() }
+        })
+    }
+
+    /// L y = b through the part's own columns.
+    pub(super) fn forward(&self, values: &[f64], y: &mut [f64]) {
+        let mut sums = vec![0.0; y.len()];
+        for Own { start, triangle, rest, rows } in self.own(values) {
+            let x = &mut y[start..start + triangle.ncols()];
+            solve_lower_triangular_in_place(triangle, column_mut(x), Par::Seq);
+            let sums = &mut sums[..rows.len()];
+            matmul(column_mut(sums), Accum::Replace, rest, column(x), 1.0, Par::Seq);
+            rows.iter().zip(sums).for_each(|(&i, sum)| y[i] -= *sum);
+        }
+    }
+
+    /// Lᵀ x = y through the part's own columns.
+    pub(super) fn backward(&self, values: &[f64], y: &mut [f64]) {
+        for Own { start, triangle, rest, rows } in self.own(values).rev() {
+            let below: Vec<f64> = rows.iter().map(|&i| y[i]).collect();
+            let x = &mut y[start..start + triangle.ncols()];
+            matmul(column_mut(x), Accum::Add, rest.transpose(), column(&below), -1.0, Par::Seq);
+            solve_upper_triangular_in_place(triangle.transpose(), column_mut(x), Par::Seq);
+        }
+    }
+}
+
+/// Columns of L in one supernode.
+struct Own<'a> {
+    start: usize,
+    triangle: MatRef<'a, f64>,
+    rest: MatRef<'a, f64>,
+    rows: Vec<usize>,
+}
+
+fn column(x: &[f64]) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(x, x.len(), 1)
+}
+
+/// A vector as a matrix of one column.
+pub(super) fn column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
+    let n = x.len();
+    MatMut::from_column_major_slice_mut(x, n, 1)
+}

@@ -1,0 +1,82 @@
+//! Which factorisation a matrix gets: of the whole, or in parts side by side.
+
+use super::cholesky::MEDIUM;
+use super::{Cholesky, Cut, NotPositiveDefinite, Parts, PartsFactor, Symbolic, TooLarge, nested_dissection};
+use crate::assembly::{Pattern, Symmetric};
+
+/// The factorisation's plan for one pattern.
+#[derive(Debug)]
+pub enum Plan {
+    /// One factor of the whole matrix.
+    Joined(Symbolic),
+    /// Parts side by side, then what they share.
+    InParts(Parts),
+}
+
+/// The factor of a matrix.
+#[derive(Debug)]
+pub enum Factor<'a> {
+    /// Of the whole matrix.
+    Joined(Cholesky<'a>),
+    /// Of its parts.
+    InParts(PartsFactor<'a>),
+}
+
+impl Plan {
+    /// Orders and analyses a pattern: a large one in parts where its border is small. `coordinates` are those of its
+    /// nodes, one node after the other.
+    pub fn analyse(pattern: &Pattern, coordinates: &[f64]) -> Result<Plan, TooLarge> {
+        if pattern.size() <= MEDIUM {
+            return Symbolic::analyse(pattern, coordinates).map(Plan::Joined);
+        }
+        let order = nested_dissection(pattern, coordinates);
+        let cut = Cut::new(pattern, &order);
+        if cut.pays() {
+            return Parts::new(pattern, cut).map(Plan::InParts);
+        }
+        drop(cut);
+        Symbolic::with_order(pattern, &order).map(Plan::Joined)
+    }
+
+    /// How it solves, for people.
+    pub fn strategy(&self) -> &'static str {
+        match self {
+            Plan::Joined(_) => "joined",
+            Plan::InParts(_) => "in parts",
+        }
+    }
+
+    /// Number of entries of the factors.
+    pub fn entries(&self) -> usize {
+        match self {
+            Plan::Joined(plan) => plan.entries(),
+            Plan::InParts(plan) => plan.entries(),
+        }
+    }
+
+    /// Memory of the factors and of the work on them [bytes].
+    pub fn bytes(&self) -> usize {
+        match self {
+            Plan::Joined(plan) => plan.bytes(),
+            Plan::InParts(plan) => plan.bytes(),
+        }
+    }
+
+    /// Factors a matrix on the pattern that was analysed.
+    pub fn factor(&self, pattern: &Pattern, matrix: &Symmetric) -> Result<Factor<'_>, NotPositiveDefinite> {
+        match self {
+            Plan::Joined(plan) => plan.factor(pattern, matrix).map(Factor::Joined),
+            Plan::InParts(plan) => plan.factor(matrix).map(Factor::InParts),
+        }
+    }
+}
+
+impl Factor<'_> {
+    /// Solves A x = b in place.
+    pub fn solve(&self, b: &mut [f64]) {
+        match self {
+            Factor::Joined(factor) => factor.solve(b),
+            Factor::InParts(factor) => factor.solve(b),
+        }
+    }
+}
