@@ -1,7 +1,7 @@
 //! Times of the linear path on two unmatched layers of N dofs, made in memory: `cargo bench --bench large -- 400000`.
 //!
-//! Prints every stage, the factor in the order of nested dissection against that of minimum degree, the stages of a
-//! whole march, and peak memory.
+//! Prints every stage, the factor in the order of nested dissection joined and in parts, that in the order of minimum
+//! degree, the stages of a whole march, and peak memory.
 
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use midplane::problem::Problem;
 use midplane::run::{Clock, march, memory};
 use midplane::scene;
 use midplane::shape::Shape;
-use midplane::solver::{Symbolic, nested_dissection};
+use midplane::solver::{Cut, Parts, Plan, Symbolic, nested_dissection};
 
 const SCENE: &str = r#"{ "plane": "strain",
   "subdomains": { "lower": { "msh": "lower", "material": "rock" }, "upper": { "msh": "upper", "material": "rock" } },
@@ -50,10 +50,14 @@ fn measure(dofs: usize) -> Result<(), String> {
     matrix.hold(&pattern, &problem.stages[0].held);
     let coordinates = model.coordinates();
     let order = timed("nested dissection", || nested_dissection(&pattern, &coordinates));
-    let symbolic = timed("symbolic", || Symbolic::with_order(&pattern, &order));
-    factor(&symbolic.map_err(|e| format!("{e:?}"))?, &pattern, &matrix)?;
-    let symbolic = timed("minimum degree, symbolic", || Symbolic::minimum_degree(&pattern));
-    factor(&symbolic.map_err(|e| format!("{e:?}"))?, &pattern, &matrix)?;
+    let joined = timed("symbolic", || Symbolic::with_order(&pattern, &order));
+    let joined = joined.map_err(|e| format!("{e:?}"))?;
+    println!("    {:<27} {:8.2} GFlop", "joined", joined.operations() / 1e9);
+    factor(&Plan::Joined(joined), &pattern, &matrix)?;
+    let parts = timed("cut, symbolic of parts", || Parts::new(&pattern, Cut::new(&pattern, &order)));
+    factor(&Plan::InParts(parts.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
+    let degree = timed("minimum degree, symbolic", || Symbolic::minimum_degree(&pattern));
+    factor(&Plan::Joined(degree.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
     drop((pattern, matrix));
 
     let mut clock = Clock::new("march");
@@ -67,14 +71,9 @@ fn measure(dofs: usize) -> Result<(), String> {
     Ok(())
 }
 
-fn factor(symbolic: &Symbolic, pattern: &Pattern, matrix: &Symmetric) -> Result<(), String> {
-    println!(
-        "    {:<27} {:8.2} million entries, {:.2} GFlop",
-        "factor",
-        symbolic.entries() as f64 / 1e6,
-        symbolic.operations() / 1e9
-    );
-    let factor = timed("numeric", || symbolic.factor(pattern, matrix)).map_err(|e| format!("{e:?}"))?;
+fn factor(plan: &Plan, pattern: &Pattern, matrix: &Symmetric) -> Result<(), String> {
+    println!("    {:<27} {:8.2} million entries", plan.strategy(), plan.entries() as f64 / 1e6);
+    let factor = timed("numeric", || plan.factor(pattern, matrix)).map_err(|e| format!("{e:?}"))?;
     let mut x = vec![1.0; pattern.size()];
     timed("solve", || factor.solve(&mut x));
     Ok(())
