@@ -12,7 +12,7 @@
 //! matrix only, never on the number of threads.
 //!
 //! Symbolic, numeric and solve of two layers on two threads take 0.70, 0.69 and 0.66 of the joined time at 100 000,
-//! 400 000 and a million dofs (medians of alternating runs), with a sixth more memory; on one thread at 400 000 dofs 1.2.
+//! 400 000 and a million dofs (alternating runs), with a sixth more memory; on one thread at 400 000 dofs 1.2.
 //! Cut along the joint instead, one body a part, the border is three times as large and the time 0.91 and 0.94.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
