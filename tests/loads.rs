@@ -3,6 +3,7 @@
 mod common;
 
 use common::*;
+use midplane::run::{Clock, Place, State, Totals, march};
 use midplane::shape::Shape;
 
 /// A joint between two unit squares, one above the other, with the given first lines and steps.
@@ -182,4 +183,28 @@ fn stiffness_beyond_double_precision_is_refused() {
     let message = go(1e18).unwrap_err().to_string();
     assert!(message.contains("interfaces.joint.law.normal_stiffness: K_N h/E = 3.3e13"), "{message}");
     assert!(message.contains("take 1e14 or less"), "{message}");
+}
+
+/// Loads that overflow end as no equilibrium, never as numbers that are none.
+#[test]
+fn overflow_is_no_equilibrium() {
+    for pressure in [1e307, 1.7e308] {
+        let steps = format!(
+            r#"{{ "name": "first", {HELD}, "load": {{ "upper.top": {{ "pressure": 1.0 }} }} }},
+               {{ "name": "push", "load": {{ "upper.top": {{ "pressure": {pressure:e} }} }} }}"#
+        );
+        let problem = two_squares(HEAD, SPRINGS, &steps, "").unwrap();
+        let mut kept = 0;
+        let mut visit = |place: Place, _: &State, _: &Totals, _: &mut Clock| {
+            kept = place.increment;
+            Ok(())
+        };
+        let error = march(&problem, &mut Clock::new("test"), &mut |_| (), &mut visit).unwrap_err();
+        assert_eq!((kept, error.exit_code()), (1, 3));
+        let message = error.to_string();
+        assert!(
+            message.contains("step \"push\", increment 1") && message.contains("overflowed"),
+            "{message}"
+        );
+    }
 }

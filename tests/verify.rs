@@ -354,7 +354,8 @@ fn case_5b_linear_and_quadratic_grids() {
                 let mut row = vec![label, mesh.into(), grid.into(), list(&energy), list(&traction)];
                 row.push(format!("{of_traction:.2}"));
                 table.row(&row);
-                let least = if grid == "linear" { 2.5 } else { 1.6 };
+                // a quadratic multiplier is sure of h^1.5 in L2
+                let least = if grid == "linear" { 2.5 } else { 1.5 };
                 assert!(of_traction >= least, "{shape:?} {mesh} {grid}: {of_traction}");
             }
         }

@@ -9,6 +9,9 @@ use crate::output::Snapshot;
 use crate::problem::{ProbeInput, Problem, Stage};
 use crate::solver::{Linear, Plan, Solution, System, TooLarge};
 
+/// A solution with a larger backward error is not kept.
+const UNUSABLE: f64 = 1e-6;
+
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
@@ -127,8 +130,14 @@ pub fn march_within(
             let loaded: Vec<f64> = force.iter().zip(&initial).map(|(f, f0)| f - f0).collect();
             let prescribed = stage.prescribed(&start, load_factor)?;
             let solution = linear.solve(&loaded, &prescribed);
+            if solution.backward_error > UNUSABLE {
+                return Err(unusable(stage, number, totals.increments, solution.backward_error));
+            }
             begin(clock, "recover");
             state.advance(problem, solution, force);
+            if !(state.stored.is_finite() && state.work.is_finite()) {
+                return Err(unusable(stage, number, totals.increments, f64::INFINITY)); // every stress counts in these
+            }
             totals.increments += 1;
             totals.backward_error = totals.backward_error.max(state.backward_error);
             let place = Place { step, stage, number, increment: totals.increments, load_factor };
@@ -147,6 +156,16 @@ fn initial_force(problem: &Problem) -> Vec<f64> {
         joint.add_force(&tractions, &mut force);
     }
     force
+}
+
+/// A solution that is none: rounding or overflow has eaten it.
+fn unusable(stage: &Stage, increment: usize, kept: usize, error: f64) -> Error {
+    let reason = if error.is_finite() {
+        format!("rounding leaves a backward error of {error:.1e}")
+    } else {
+        "numbers overflowed: loads or stiffnesses are out of range".into()
+    };
+    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
 }
 
 fn singular(stage: &Stage, kept: usize) -> Error {

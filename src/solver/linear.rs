@@ -41,7 +41,7 @@ pub struct Solution {
     pub u: Vec<f64>,
     /// Force of the supports at held dofs, zero elsewhere [force].
     pub reactions: Vec<f64>,
-    /// max_i |r_i| / (|A| |u| + |f|)_i over the free dofs (Oettli and Prager).
+    /// max_i |r_i| / (|A| |u| + |f|)_i over the free dofs (Oettli and Prager); infinite if numbers overflowed.
     pub backward_error: f64,
 }
 
@@ -88,7 +88,7 @@ impl<'a> Linear<'a> {
                 break;
             }
         }
-        let (backward_error, u, residual) = best.unwrap_or((f64::NAN, u, residual));
+        let (backward_error, u, residual) = best.unwrap_or((f64::INFINITY, u, residual));
         Solution { reactions: self.reactions(&residual), u, backward_error }
     }
 
@@ -109,6 +109,9 @@ impl<'a> Linear<'a> {
     fn backward_error(&self, f: &[f64], u: &[f64], residual: &[f64]) -> f64 {
         let mut scale: Vec<f64> = f.iter().map(|f| f.abs()).collect();
         self.total.add_absolute_product(self.system.pattern, u, &mut scale);
+        if !scale.iter().all(|scale| scale.is_finite()) {
+            return f64::INFINITY; // overflow: a maximum would pass over what is not a number
+        }
         let free = (0..f.len()).filter(|&i| !self.held[i] && scale[i] > 0.0);
         free.map(|i| residual[i].abs() / scale[i]).fold(0.0, f64::max)
     }
