@@ -159,7 +159,7 @@ fn layers_that_spread_alike_slide_nowhere() {
                     close(stress[2], zz, 1e-10, P, &name);
                 }
                 assert_eq!((totals.factorisations, totals.increments), (1, 1));
-                assert!(totals.backward_error < 1e-14);
+                assert!(totals.residual < 1e-14);
             }
         }
     }

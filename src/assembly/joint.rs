@@ -1,6 +1,6 @@
 //! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
 
-use super::{Pattern, Symmetric};
+use super::{Pattern, Symmetric, Tangent};
 use crate::coupling::{Coupling, Csr};
 
 /// A coupling whose columns are dofs of the model.
@@ -41,10 +41,19 @@ impl Joint {
         Joint { name: name.into(), coupling, bodies, jump, thickness }
     }
 
+    /// Jump coefficients a = G u of displacements.
+    pub fn coefficients(&self, u: &[f64]) -> Vec<f64> {
+        self.jump.multiply(u)
+    }
+
     /// Jumps (n, t, …) at the law points for displacements u.
     pub fn jumps(&self, u: &[f64]) -> Vec<f64> {
+        self.jumps_of(&self.coefficients(u))
+    }
+
+    /// Jumps r_p = R_p N_p a (n, t, …) at the law points.
+    pub fn jumps_of(&self, coefficients: &[f64]) -> Vec<f64> {
         let c = self.coupling.components;
-        let coefficients = self.jump.multiply(u);
         let mut jumps = vec![0.0; c * self.coupling.points.len()];
         for (point, jump) in self.coupling.points.iter().zip(jumps.chunks_exact_mut(c)) {
             for (row, jump) in point.rotation.iter().zip(jump) {
@@ -57,8 +66,8 @@ impl Joint {
         jumps
     }
 
-    /// f += Gᵀ Σ w Nᵀ Rᵀ t for tractions (n, t, …) at the law points.
-    pub fn add_force(&self, tractions: &[f64], f: &mut [f64]) {
+    /// Forces on the jump coefficients, q = h Σ w Nᵀ Rᵀ t, of tractions (n, t, …) at the law points.
+    pub fn gather(&self, tractions: &[f64]) -> Vec<f64> {
         let c = self.coupling.components;
         let mut q = vec![0.0; self.jump.rows()];
         for (point, traction) in self.coupling.points.iter().zip(tractions.chunks_exact(c)) {
@@ -70,7 +79,46 @@ impl Joint {
                 }
             }
         }
-        self.jump.add_transposed(&q, f);
+        q
+    }
+
+    /// f += Gᵀ q for forces on the jump coefficients.
+    pub fn add_nodal(&self, q: &[f64], f: &mut [f64]) {
+        self.jump.add_transposed(q, f);
+    }
+
+    /// f += Gᵀ Σ w Nᵀ Rᵀ t for tractions (n, t, …) at the law points.
+    pub fn add_force(&self, tractions: &[f64], f: &mut [f64]) {
+        self.add_nodal(&self.gather(tractions), f);
+    }
+
+    /// Thickness out of the plane [length].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Number of jump coefficients with all their components.
+    pub fn size(&self) -> usize {
+        self.jump.rows()
+    }
+
+    /// Gᵀ T G, entry by entry (row, column, value) with repetitions.
+    pub fn visit_stiffness(&self, tangent: &Csr, mut entry: impl FnMut(usize, usize, f64)) {
+        let product = product(tangent, &self.jump);
+        for i in 0..self.jump.rows() {
+            let (left, left_values) = self.jump.row(i);
+            let (right, right_values) = product.row(i);
+            for (&row, left) in left.iter().zip(left_values) {
+                for (&column, right) in right.iter().zip(right_values) {
+                    entry(row, column, left * right);
+                }
+            }
+        }
+    }
+
+    /// Row i of G: dofs and values.
+    pub fn row(&self, i: usize) -> (&[usize], &[f64]) {
+        self.jump.row(i)
     }
 
     /// Sets of nodes that the joint's stiffness connects with each other.
@@ -104,31 +152,11 @@ impl Joint {
         }
     }
 
-    /// T G with T = h Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p.
+    /// T G.
     fn multiplied(&self, stiffness: &[f64]) -> Csr {
-        let c = self.coupling.components;
-        let mut triplets = Vec::new();
-        for (point, d) in self.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
-            let r = &point.rotation;
-            for (i, ni) in point.interpolation.into_iter().filter(|(_, n)| *n != 0.0) {
-                for (j, nj) in point.interpolation.into_iter().filter(|(_, n)| *n != 0.0) {
-                    let w = self.thickness * point.weight * ni * nj;
-                    for a in 0..c {
-                        for b in 0..c {
-                            let mut sum = 0.0;
-                            for m in 0..c {
-                                for n in 0..c {
-                                    sum += r[m][a] * d[c * m + n] * r[n][b];
-                                }
-                            }
-                            triplets.push((c * i + a, c * j + b, w * sum));
-                        }
-                    }
-                }
-            }
-        }
-        let t = Csr::from_triplets(self.jump.rows(), self.jump.rows(), &triplets);
-        product(&t, &self.jump)
+        let mut tangent = Tangent::new(self);
+        tangent.fill(self, stiffness);
+        product(&tangent.matrix, &self.jump)
     }
 }
 

@@ -7,10 +7,12 @@
 mod joint;
 mod matrix;
 mod pattern;
+mod tangent;
 
 pub use joint::Joint;
 pub use matrix::Symmetric;
 pub use pattern::Pattern;
+pub use tangent::Tangent;
 
 use rayon::prelude::*;
 
@@ -65,6 +67,15 @@ impl Model {
     /// Coordinates of all nodes, one node after the other [length].
     pub fn coordinates(&self) -> Vec<f64> {
         self.bodies.iter().flat_map(|body| body.mesh.points.as_flattened()).copied().collect()
+    }
+
+    /// The pattern of the bodies alone: a block for each.
+    pub fn continuum_pattern(&self) -> Pattern {
+        let cells = self.bodies.iter().flat_map(|body| {
+            let cells = &body.mesh.cells;
+            (0..cells.len()).map(move |c| (body.first_node, cells.nodes(c)))
+        });
+        Pattern::new(self.components, self.nodes(), || cells.clone())
     }
 
     /// The pattern that continuum and joints fill together.

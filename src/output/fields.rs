@@ -4,6 +4,7 @@ use super::Snapshot;
 use super::vtu::{Array, Data, Grid};
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::principal;
+use crate::law;
 
 /// A body: displacement, stress at points and cells, principal stress.
 pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
@@ -39,6 +40,8 @@ fn mesh(body: &Body) -> Grid {
 pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
     let points = &joint.coupling.points;
     let n = points.len();
+    let none = vec![law::State::default(); n];
+    let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
     Grid {
         points: points.iter().flat_map(|p| [p.position[0], p.position[1], 0.0]).collect(),
         connectivity: (1..n as i64).flat_map(|i| [i - 1, i]).collect(),
@@ -46,10 +49,14 @@ pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64)
         types: vec![3; n - 1],
         point_data: vec![
             Array::float("jump", 2, snapshot.jumps[index].iter().flatten().copied()),
-            Array::float("jump_plastic", 2, vec![0.0; 2 * n]),
+            Array::float(
+                "jump_plastic",
+                2,
+                states.iter().flat_map(|state| [state.jump_plastic.x, state.jump_plastic.y]),
+            ),
             Array::float("traction", 2, snapshot.tractions[index].iter().flatten().copied()),
-            Array::float("fracture_work", 1, vec![0.0; n]),
-            Array::int("status", vec![0; n]),
+            Array::float("fracture_work", 1, states.iter().map(|state| state.fracture_work)),
+            Array::int("status", states.iter().map(|state| i64::from(state.status))),
             Array::float("length", 1, points.iter().map(|p| p.weight)),
             Array::float("normal", 3, points.iter().flat_map(|p| [p.rotation[0][0], p.rotation[0][1], 0.0])),
         ],

@@ -11,6 +11,7 @@ pub use files::{write_json, write_whole};
 pub use writer::{Row, Writer};
 
 use crate::continuum::Stresses;
+use crate::law;
 
 /// One state of the model, as it is written.
 #[derive(Debug, Clone, Default)]
@@ -23,4 +24,6 @@ pub struct Snapshot {
     pub jumps: Vec<Vec<[f64; 2]>>,
     /// Traction (n, t) at the law points of every joint [stress].
     pub tractions: Vec<Vec<[f64; 2]>>,
+    /// State of the law points of every joint; empty for an elastic one.
+    pub states: Vec<Vec<law::State>>,
 }

@@ -32,6 +32,8 @@ pub struct Row {
     pub iterations: usize,
     /// Out-of-balance force that is left, relative.
     pub residual: f64,
+    /// work − stored − dissipated energy over the largest of them so far.
+    pub energy_balance: f64,
     /// Probes, then reactions.
     pub values: Vec<f64>,
 }
@@ -42,7 +44,7 @@ impl Writer {
     pub fn create(folder: &Path, name: &str, columns: &[String]) -> Result<Writer> {
         remove_earlier(folder, name)?;
         std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
-        let mut history = String::from("step,increment,load_factor,iterations,residual");
+        let mut history = String::from("step,increment,load_factor,iterations,residual,energy_balance");
         for column in columns {
             let _ = write!(history, ",{}", quoted(column));
         }
@@ -89,8 +91,12 @@ impl Writer {
 
     /// Adds a row to the history.
     pub fn row(&mut self, row: &Row) -> Result<()> {
-        let Row { step, increment, load_factor, iterations, residual, values } = row;
-        let _ = write!(self.history, "{},{increment},{load_factor},{iterations},{residual:e}", quoted(step));
+        let Row { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
+        let _ = write!(
+            self.history,
+            "{},{increment},{load_factor},{iterations},{residual:e},{energy_balance:e}",
+            quoted(step)
+        );
         for value in values {
             let _ = write!(self.history, ",{value:e}");
         }

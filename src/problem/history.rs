@@ -35,27 +35,28 @@ type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
 struct Supports {
     held: Vec<bool>,
     target: Vec<f64>,
+    /// Held where it is, by `hold`.
+    kept: Vec<bool>,
 }
 
 /// Binds all steps.
 pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Reaction>)> {
-    let mut supports = Supports { held: vec![false; model.dofs()], target: vec![0.0; model.dofs()] };
+    let n = model.dofs();
+    let mut supports = Supports { held: vec![false; n], target: vec![0.0; n], kept: vec![false; n] };
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
     let mut loads = Loads::new();
     let mut force = vec![0.0; model.dofs()];
     let mut stages = Vec::new();
     for (index, step) in scene.steps.iter().enumerate() {
         let index = index.to_string();
-        for (key, group, direction, _) in prescribed(step) {
-            let path = ["steps", &index, key, group];
-            let dofs = groups::nodes(scene, model, &path, group)?
-                .into_iter()
-                .map(|node| model.components * node + direction.component())
-                .collect();
+        let held = named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
+        for (key, group, direction, _) in prescribed(step).chain(held) {
+            let dofs = dofs(scene, model, &["steps", &index, key, group], group, direction)?;
             let reaction = Reaction { group: group.into(), direction, dofs };
             reactions.entry((group.to_string(), direction.component())).or_insert(reaction);
         }
-        let moving = support(scene, model, &index, step, &mut supports)?;
+        let (moving, here) = support(scene, model, &index, step, &mut supports)?;
+        let released = hold_and_release(scene, model, &index, step, here, &mut supports)?;
         let given = given(scene, model, &index, step)?;
         let changing: Loads =
             given.clone().into_iter().filter(|(_, load)| load.follows_load_factor()).collect();
@@ -75,7 +76,9 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Re
             name: step.name.clone(),
             increments: step.increments,
             held: supports.held.clone(),
+            released,
             target: supports.target.clone(),
+            kept: supports.kept.clone(),
             moving,
             force_start,
             force_end,
@@ -133,14 +136,82 @@ fn prescribed(step: &Step) -> impl Iterator<Item = (&'static str, &str, Directio
     fixed.chain(displaced)
 }
 
-/// Applies a step's supports; two different values for one dof are refused. Returns what follows load_factor.
+/// Directions by group under one key.
+fn named<'a>(
+    key: &'static str,
+    groups: &'a IndexMap<String, Vec<Direction>>,
+) -> impl Iterator<Item = (&'static str, &'a str, Direction)> {
+    let of = move |(group, directions): (&'a String, &'a Vec<Direction>)| {
+        directions.iter().map(move |&direction| (key, group.as_str(), direction))
+    };
+    groups.iter().flat_map(of)
+}
+
+/// Dofs of a group in one direction.
+fn dofs(
+    scene: &Scene,
+    model: &Model,
+    path: &[&str],
+    group: &str,
+    direction: Direction,
+) -> Result<Vec<usize>> {
+    let nodes = groups::nodes(scene, model, path, group)?;
+    Ok(nodes.into_iter().map(|node| model.components * node + direction.component()).collect())
+}
+
+/// Applies `hold` and `release` after the supports of the same step, whose dofs are `taken`. Returns the dofs that are
+/// freed.
+fn hold_and_release(
+    scene: &Scene,
+    model: &Model,
+    index: &str,
+    step: &Step,
+    mut taken: BTreeMap<usize, String>,
+    supports: &mut Supports,
+) -> Result<Vec<usize>> {
+    let mut released = Vec::new();
+    for (key, group, direction) in named("hold", &step.hold).chain(named("release", &step.release)) {
+        let path = ["steps", index, key, group];
+        let (name, mut found) = (direction.name(), false);
+        for dof in dofs(scene, model, &path, group, direction)? {
+            if let Some(other) = taken.get(&dof).filter(|other| **other != format!("{key} {group}")) {
+                let what = format!("{key} of \"{group}\" in {name} meets {other} at the same node");
+                return Err(scene.source.refuse(
+                    &path,
+                    what,
+                    "give each direction of a node one duty in a step",
+                ));
+            }
+            if key == "hold" {
+                (supports.held[dof], supports.kept[dof], found) = (true, true, true);
+            } else if supports.held[dof] {
+                (supports.held[dof], supports.kept[dof], found) = (false, false, true);
+                released.push(dof);
+            }
+            taken.insert(dof, format!("{key} {group}"));
+        }
+        if !found {
+            let what = format!("nothing holds \"{group}\" in {name}");
+            return Err(scene.source.refuse(
+                &path,
+                what,
+                "release what an earlier step fixes, displaces or holds",
+            ));
+        }
+    }
+    released.sort_unstable();
+    Ok(released)
+}
+
+/// Applies a step's supports; two different values for one dof are refused. Returns what follows load_factor, and the
+/// dofs with what prescribes them.
 fn support(
     scene: &Scene,
     model: &Model,
     index: &str,
     step: &Step,
     supports: &mut Supports,
-) -> Result<Vec<Moving>> {
+) -> Result<(Vec<Moving>, BTreeMap<usize, String>)> {
     // group, its largest displacement, and that of the dof, at the end and half-way
     let mut here: BTreeMap<usize, (&str, f64, [f64; 2])> = BTreeMap::new();
     let mut moving: BTreeMap<usize, Moving> = BTreeMap::new();
@@ -177,13 +248,15 @@ fn support(
                     return Err(scene.source.refuse(&path, what, cure));
                 }
             }
-            (supports.held[dof], supports.target[dof]) = (true, value[0]);
+            (supports.held[dof], supports.target[dof], supports.kept[dof]) = (true, value[0], false);
             if follows {
                 moving.insert(dof, Moving { dof, place, value: quantity.clone() });
             }
         }
     }
-    Ok(moving.into_values().collect())
+    let taken =
+        here.into_iter().map(|(dof, (group, ..))| (dof, format!("the prescribed \"{group}\""))).collect();
+    Ok((moving.into_values().collect(), taken))
 }
 
 /// Model nodes of a group with their places; s along curves only if the quantity asks for it.

@@ -3,6 +3,7 @@
 use super::quantity::Quantity;
 use crate::assembly::Joint;
 use crate::error::Result;
+use crate::law::{self, Inadmissible, Law};
 use crate::scene::{self, Place, Scene};
 
 /// Initial traction (n, t) of a joint [stress].
@@ -44,4 +45,23 @@ impl InitialTraction {
         });
         Ok(InitialTraction::Varying(tractions.collect::<Result<_>>()?))
     }
+}
+
+/// States of the law points before the first increment; none for an elastic joint.
+pub(super) fn states(
+    scene: &Scene,
+    name: &str,
+    law: &Law,
+    initial: &InitialTraction,
+    joint: &Joint,
+) -> Result<Vec<law::State>> {
+    if matches!(law, Law::Elastic(_)) {
+        return Ok(Vec::new());
+    }
+    let state = |point: usize| {
+        law.initial_state(initial.at(point).into(), 0.0).map_err(|Inadmissible { key, what, cure }| {
+            scene.source.refuse(&["interfaces", name, key], what, cure)
+        })
+    };
+    (0..joint.coupling.points.len()).map(state).collect()
 }

@@ -19,7 +19,7 @@ use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
 use crate::coupling::{Coupling, Kind, Points, Side};
 use crate::error::Result;
-use crate::law::Law;
+use crate::law::{self, Law, Stepping};
 use crate::mesh::{Edge, Mesh};
 use crate::scene::{self, Scene};
 
@@ -35,6 +35,12 @@ pub struct Problem {
     pub model: Model,
     /// Law and initial traction of every joint.
     pub laws: Vec<(Law, InitialTraction)>,
+    /// States of the law points before the first increment; empty for an elastic joint, which has no history.
+    pub states: Vec<Vec<law::State>>,
+    /// How the laws' integration is controlled, joint by joint.
+    pub stepping: Vec<Stepping>,
+    /// How equilibrium is found where a joint is not elastic.
+    pub solution: scene::Solution,
     /// Supports and loads step by step.
     pub stages: Vec<Stage>,
     /// Columns of the history: name and probe.
@@ -55,12 +61,15 @@ impl Problem {
             joints: Vec::new(),
         };
         let mut warnings = Vec::new();
-        let mut laws = Vec::new();
+        let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
         for (name, interface) in &scene.interfaces {
             let joint = join(scene, &model, name, interface)?;
             refuse_beyond_precision(scene, &model, &joint, interface)?;
             warnings.extend(joint_warnings(&model, &joint, interface));
-            laws.push((interface.law, InitialTraction::bind(scene, name, interface, &joint)?));
+            let initial = InitialTraction::bind(scene, name, interface, &joint)?;
+            states.push(initial::states(scene, name, &interface.law, &initial, &joint)?);
+            stepping.push(Stepping::Tolerance(interface.law_tolerance));
+            laws.push((interface.law, initial));
             model.joints.push(joint);
         }
         let (stages, reactions) = history::stages(scene, &model)?;
@@ -68,7 +77,8 @@ impl Problem {
             rigid::refuse_free_bodies(&model, &laws, stage)?;
         }
         let probes = probes::bind(scene, &model)?;
-        Ok(Problem { model, laws, stages, probes, reactions, warnings })
+        let solution = scene.solution;
+        Ok(Problem { model, laws, states, stepping, solution, stages, probes, reactions, warnings })
     }
 }
 

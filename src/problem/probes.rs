@@ -3,6 +3,7 @@
 use super::groups;
 use crate::assembly::{Joint, Model};
 use crate::error::Result;
+use crate::law;
 use crate::scene::Scene;
 use crate::scene::probe::{JointField, Probe};
 
@@ -44,6 +45,8 @@ pub struct ProbeInput<'a> {
     pub jumps: &'a [Vec<[f64; 2]>],
     /// Traction (n, t) at the law points of every joint.
     pub tractions: &'a [Vec<[f64; 2]>],
+    /// State of the law points of every joint; empty for an elastic one.
+    pub states: &'a [Vec<law::State>],
     /// Elastic energy.
     pub stored: f64,
     /// Dissipated energy.
@@ -106,7 +109,9 @@ impl BoundProbe {
                 let at = |p: usize| match *field {
                     JointField::Jump(c) => input.jumps[*joint][p][c],
                     JointField::Traction(c) => input.tractions[*joint][p][c],
-                    JointField::FractureWork => 0.0,
+                    JointField::FractureWork => {
+                        input.states[*joint].get(p).map_or(0.0, |state| state.fracture_work)
+                    }
                 };
                 points.iter().filter(|(_, weight)| *weight != 0.0).map(|&(p, weight)| weight * at(p)).sum()
             }

@@ -21,8 +21,12 @@ pub struct Stage {
     pub increments: usize,
     /// Held dofs.
     pub held: Vec<bool>,
+    /// Dofs that were held and are free now: their reaction goes to zero over the step.
+    pub released: Vec<usize>,
     /// Displacement of every held dof at the end of the step [length].
     pub(super) target: Vec<f64>,
+    /// Dofs that stay where they are at the start of the step, whatever their target.
+    pub(super) kept: Vec<bool>,
     /// Dofs whose displacement follows a formula in load_factor.
     pub(super) moving: Vec<Moving>,
     /// External forces that ramp, at the start of the step [force].
@@ -61,6 +65,9 @@ impl Stage {
     /// Displacements of the held dofs at a load level, for those at the start of the step [length].
     pub fn prescribed(&self, start: &[f64], load_factor: f64) -> Result<Vec<f64>> {
         let mut u = ramp(start, &self.target, load_factor);
+        for (dof, _) in self.kept.iter().enumerate().filter(|(_, kept)| **kept) {
+            u[dof] = start[dof];
+        }
         for moving in &self.moving {
             u[moving.dof] = moving.at(load_factor)?;
         }

@@ -1,16 +1,21 @@
-//! The march through the load history of a linear scene: one factorisation per set of supports, one solve per
-//! increment, no iteration.
+//! The march through the load history. A linear scene takes one factorisation per set of supports and one solve per
+//! increment; any other iterates, and divides an increment that finds no equilibrium.
 
+use super::engine::{Engine, Failure, LinearEngine, NewtonEngine, active};
+use super::state::State;
 use super::{Clock, memory};
-use crate::assembly::Model;
-use crate::continuum::{Stresses, recover};
+use crate::assembly::Joint;
 use crate::error::{Error, Result};
-use crate::output::Snapshot;
-use crate::problem::{ProbeInput, Problem, Stage};
-use crate::solver::{Linear, Plan, Solution, System, TooLarge};
+use crate::problem::{Problem, Stage};
+use crate::scene::{Solution, Strategy, Tangent};
+use crate::solver::{Continuum, Plan, Settings, System, TooLarge, Unconverged};
 
-/// A solution with a larger backward error is not kept.
-const UNUSABLE: f64 = 1e-6;
+/// An increment is halved at most this many times.
+const HALVINGS: i32 = 10;
+/// An increment found in at most this many iterations is followed by one of twice the size.
+const EASY: usize = 8;
+/// Condensation is for joints of at most this many dofs: its dense matrices have their square.
+const DENSE: usize = 12_000;
 
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
@@ -19,12 +24,18 @@ pub struct Totals {
     pub increments: usize,
     /// Factorisations.
     pub factorisations: usize,
-    /// How the matrix is factored.
+    /// Newton iterations, those of failed increments included.
+    pub iterations: usize,
+    /// Increments that had to be halved.
+    pub halved: usize,
+    /// How the equations are solved.
     pub strategy: &'static str,
     /// Entries of one factor.
     pub factor_entries: usize,
-    /// Largest componentwise backward error max |r| / (|A| |u| + |f|).
-    pub backward_error: f64,
+    /// Largest residual of all increments.
+    pub residual: f64,
+    /// Largest |work − stored − dissipated|, relative.
+    pub energy_balance: f64,
 }
 
 /// Where in the history a state stands.
@@ -40,23 +51,8 @@ pub struct Place<'a> {
     pub increment: usize,
     /// Load level in the step, 0 to 1.
     pub load_factor: f64,
-}
-
-/// The model after an increment.
-#[derive(Debug, Clone)]
-pub struct State {
-    /// Displacements, stresses, jumps, tractions.
-    pub snapshot: Snapshot,
-    /// External forces by dof [force].
-    pub force: Vec<f64>,
-    /// Reactions by dof [force].
-    pub reactions: Vec<f64>,
-    /// Componentwise backward error of the solution.
-    pub backward_error: f64,
-    /// Elastic energy of bodies and joints [force × length].
-    pub stored: f64,
-    /// Work of loads and prescribed displacements so far [force × length].
-    pub work: f64,
+    /// Newton iterations since the increment before.
+    pub iterations: usize,
 }
 
 /// Called after the unloaded state (`number` 0) and after every increment, with the running counts.
@@ -86,74 +82,175 @@ pub fn march_within(
     };
     begin(clock, "assemble");
     let model = &problem.model;
-    let stiffness: Vec<Vec<f64>> = problem
-        .laws
-        .iter()
-        .zip(&model.joints)
-        .map(|((law, _), joint)| {
-            let [kn, kt] = law.elastic_stiffness();
-            [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
-        })
-        .collect();
-    let pattern = model.pattern();
-    let continuum = model.continuum(&pattern);
-    let system =
-        System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
-    let initial = initial_force(problem);
-    begin(clock, "order");
-    let plan =
-        Plan::analyse(&pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(model.dofs()))?;
-    memory::refuse(model.dofs(), plan.entries(), memory::needed(&plan, &pattern), available)?;
-
-    let mut totals =
-        Totals { strategy: plan.strategy(), factor_entries: plan.entries(), ..Totals::default() };
-    let mut state = State::unloaded(problem);
-    let mut factored: Option<(&[bool], Linear)> = None;
-    for (step, stage) in problem.stages.iter().enumerate() {
-        let (_, linear) = match factored.take().filter(|(held, _)| *held == stage.held) {
-            Some(same) => factored.insert(same),
-            None => {
-                begin(clock, "factor");
-                totals.factorisations += 1;
-                let linear = Linear::new(&system, &plan, &stage.held);
-                factored.insert((&stage.held, linear.map_err(|_| singular(stage, totals.increments))?))
-            }
+    let dofs = model.dofs();
+    let stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k)).collect();
+    let mut totals = Totals::default();
+    if active(problem).is_empty() {
+        let (pattern, joints) = (&model.pattern(), &model.joints);
+        let continuum = &model.continuum(pattern);
+        let system = System { joints, stiffness: &stiffness, pattern, continuum };
+        begin(clock, "order");
+        let plan =
+            Plan::analyse(pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(dofs))?;
+        memory::refuse(dofs, plan.entries(), memory::needed(plan.bytes(), pattern), available)?;
+        (totals.strategy, totals.factor_entries) = (plan.strategy(), plan.entries());
+        steps(problem, &mut LinearEngine::new(&system, &plan), totals, clock, &mut begin, visit)
+    } else {
+        let continuum = &Continuum::new(model).map_err(|TooLarge| memory::too_large(dofs))?;
+        let (parts, settings) = (&continuum.parts, settings(&problem.solution));
+        let condensed = match problem.solution.strategy {
+            Strategy::Auto => parts.border() <= DENSE,
+            strategy => strategy == Strategy::Condensed,
         };
-        if step == 0 {
-            visit(Place { step, stage, number: 0, increment: 0, load_factor: 0.0 }, &state, &totals, clock)?;
+        let coefficients: usize = active(problem).iter().map(|&k| model.joints[k].size()).sum();
+        let dense = if condensed { parts.border().pow(2) + 4 * coefficients.pow(2) } else { 0 };
+        let bytes = parts.bytes() + size_of::<f64>() * dense;
+        memory::refuse(dofs, parts.entries(), memory::needed(bytes, &continuum.pattern), available)?;
+        totals.factor_entries = parts.entries();
+        if condensed {
+            totals.strategy = "condensed";
+            let mut engine = NewtonEngine::condensed(problem, continuum, &stiffness, settings);
+            steps(problem, &mut engine, totals, clock, &mut begin, visit)
+        } else {
+            totals.strategy = "plain";
+            let mut engine = NewtonEngine::plain(problem, continuum, &stiffness, settings);
+            steps(problem, &mut engine, totals, clock, &mut begin, visit)
         }
-        let start = state.snapshot.u.clone();
-        for number in 1..=stage.increments {
-            begin(clock, "solve");
-            let load_factor = number as f64 / stage.increments as f64;
-            let force = stage.force(model, load_factor)?;
-            let loaded: Vec<f64> = force.iter().zip(&initial).map(|(f, f0)| f - f0).collect();
-            let prescribed = stage.prescribed(&start, load_factor)?;
-            let solution = linear.solve(&loaded, &prescribed);
-            if solution.backward_error > UNUSABLE {
-                return Err(unusable(stage, number, totals.increments, solution.backward_error));
-            }
-            begin(clock, "recover");
-            state.advance(problem, solution, force);
-            if !(state.stored.is_finite() && state.work.is_finite()) {
-                return Err(unusable(stage, number, totals.increments, f64::INFINITY)); // every stress counts in these
-            }
-            totals.increments += 1;
-            totals.backward_error = totals.backward_error.max(state.backward_error);
-            let place = Place { step, stage, number, increment: totals.increments, load_factor };
+    }
+}
+
+fn settings(solution: &Solution) -> Settings {
+    let Solution { tolerance, iterations, tangent, .. } = *solution;
+    Settings { tolerance, iterations, initial_tangent: tangent == Tangent::Initial }
+}
+
+/// Law stiffness of a joint's springs: its own if it is elastic, else E/h, which keeps floating bodies in place.
+fn springs(problem: &Problem, k: usize) -> Vec<f64> {
+    let (joint, (law, _)) = (&problem.model.joints[k], &problem.laws[k]);
+    let [kn, kt] = match law {
+        crate::law::Law::Elastic(_) => law.elastic_stiffness(),
+        _ => [base_stiffness(problem, joint); 2],
+    };
+    [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
+}
+
+/// E/h of the softer body and the mean length of the coarser side's edges.
+fn base_stiffness(problem: &Problem, joint: &Joint) -> f64 {
+    let midplane = &joint.coupling.midplane;
+    let edges = midplane.a.edges().min(midplane.b.edges());
+    let young = joint.bodies.map(|body| problem.model.bodies[body].elasticity.young);
+    young[0].min(young[1]) * edges as f64 / midplane.length
+}
+
+/// All steps with one engine.
+fn steps(
+    problem: &Problem,
+    engine: &mut dyn Engine,
+    mut totals: Totals,
+    clock: &mut Clock,
+    begin: &mut dyn FnMut(&mut Clock, &'static str),
+    visit: Visit,
+) -> Result<Totals> {
+    let initial = initial_force(problem);
+    let mut state = State::unloaded(problem);
+    for (step, stage) in problem.stages.iter().enumerate() {
+        begin(clock, "factor");
+        totals.factorisations +=
+            usize::from(engine.support(&stage.held).map_err(|_| singular(stage, totals.increments))?);
+        if step == 0 {
+            let place = Place { step, stage, number: 0, increment: 0, load_factor: 0.0, iterations: 0 };
             visit(place, &state, &totals, clock)?;
+        }
+        let start = Start { u: state.snapshot.u.clone(), reactions: state.reactions.clone() };
+        let (mut level, mut width, mut last) = (0.0, 1.0 / stage.increments as f64, f64::INFINITY);
+        for number in 1..=stage.increments {
+            let goal = number as f64 / stage.increments as f64;
+            let mut iterations = 0;
+            let mut lost = None;
+            while level < goal {
+                begin(clock, "solve");
+                let reached = if level + 1.001 * width >= goal { goal } else { level + width };
+                let (force, prescribed, released) = start.at(problem, stage, reached)?;
+                let loaded: Vec<f64> =
+                    force.iter().zip(&released).zip(&initial).map(|((f, r), f0)| f + r - f0).collect();
+                match engine.solve(&state, &loaded, &prescribed, (reached - level) / last) {
+                    Ok(mut found) => {
+                        engine.accept();
+                        found
+                            .solution
+                            .reactions
+                            .iter_mut()
+                            .zip(&released)
+                            .for_each(|(r, released)| *r += released);
+                        iterations += found.iterations;
+                        if found.iterations <= EASY {
+                            width = (2.0 * width).min(1.0 / stage.increments as f64);
+                        }
+                        state.accept(problem, found, force);
+                        (last, level) = (reached - level, reached);
+                    }
+                    Err(Failure::Unusable(error)) => {
+                        return Err(unusable(stage, number, totals.increments, error));
+                    }
+                    Err(Failure::Unconverged(why)) => {
+                        iterations += why.iterations;
+                        totals.halved += 1;
+                        width = 0.5 * (reached - level);
+                        if width * (stage.increments as f64) < 0.5_f64.powi(HALVINGS) {
+                            lost = Some(why);
+                            break;
+                        }
+                    }
+                }
+            }
+            totals.iterations += iterations;
+            let between = level > (number - 1) as f64 / stage.increments as f64;
+            if lost.is_none() || between {
+                begin(clock, "recover");
+                state.recover(problem);
+                if !(state.stored.is_finite() && state.work.is_finite()) {
+                    return Err(unusable(stage, number, totals.increments, f64::INFINITY)); // every stress counts in these
+                }
+                totals.increments += 1;
+                totals.residual = totals.residual.max(state.residual);
+                totals.energy_balance = totals.energy_balance.max(state.energy_balance().abs());
+                let increment = totals.increments;
+                let place = Place { step, stage, number, increment, load_factor: level, iterations };
+                visit(place, &state, &totals, clock)?;
+            }
+            if let Some(why) = lost {
+                return Err(no_equilibrium(problem, stage, number, totals.increments, level, &why));
+            }
         }
     }
     clock.begin("end");
     Ok(totals)
 }
 
-/// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions (paper eq. 12).
+/// What a step starts from.
+struct Start {
+    u: Vec<f64>,
+    reactions: Vec<f64>,
+}
+
+impl Start {
+    /// External forces, prescribed displacements, and what is left of released reactions, at a load level.
+    fn at(&self, problem: &Problem, stage: &Stage, level: f64) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>)> {
+        let mut released = vec![0.0; self.u.len()];
+        stage.released.iter().for_each(|&dof| released[dof] = (1.0 - level) * self.reactions[dof]);
+        Ok((stage.force(&problem.model, level)?, stage.prescribed(&self.u, level)?, released))
+    }
+}
+
+/// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic joints (paper eq. 12); other laws know theirs.
 fn initial_force(problem: &Problem) -> Vec<f64> {
     let mut force = vec![0.0; problem.model.dofs()];
-    for (joint, (_, initial)) in problem.model.joints.iter().zip(&problem.laws) {
-        let tractions: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
-        joint.add_force(&tractions, &mut force);
+    for ((joint, (_, initial)), states) in problem.model.joints.iter().zip(&problem.laws).zip(&problem.states)
+    {
+        if states.is_empty() {
+            let tractions: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
+            joint.add_force(&tractions, &mut force);
+        }
     }
     force
 }
@@ -173,77 +270,25 @@ fn singular(stage: &Stage, kept: usize) -> Error {
     Error::NoEquilibrium { step: stage.name.clone(), increment: 1, reason, kept }
 }
 
-impl State {
-    fn unloaded(problem: &Problem) -> State {
-        let u = vec![0.0; problem.model.dofs()];
-        let mut state = State {
-            force: u.clone(),
-            reactions: u.clone(),
-            snapshot: Snapshot { u, ..Snapshot::default() },
-            backward_error: 0.0,
-            stored: 0.0,
-            work: 0.0,
-        };
-        state.recover(problem);
-        state
-    }
-
-    /// Takes a solution; external work by the trapezoidal rule, which is exact between two linear states.
-    fn advance(&mut self, problem: &Problem, solution: Solution, force: Vec<f64>) {
-        let Solution { u, reactions, backward_error } = solution;
-        self.work += (0..u.len())
-            .map(|i| {
-                let mean = 0.5 * (force[i] + reactions[i] + self.force[i] + self.reactions[i]);
-                mean * (u[i] - self.snapshot.u[i])
-            })
-            .sum::<f64>();
-        (self.snapshot.u, self.force, self.reactions, self.backward_error) =
-            (u, force, reactions, backward_error);
-        self.recover(problem);
-    }
-
-    /// Stresses, jumps, tractions and energy of the displacements.
-    fn recover(&mut self, problem: &Problem) {
-        let Problem { model, laws, .. } = problem;
-        let u = &self.snapshot.u;
-        self.snapshot.stresses = (0..model.bodies.len()).map(|b| stresses(model, b, u)).collect();
-        self.stored = self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum();
-        (self.snapshot.jumps, self.snapshot.tractions) = (Vec::new(), Vec::new());
-        for (joint, (law, initial)) in model.joints.iter().zip(laws) {
-            let d = law.elastic_stiffness();
-            let jumps: Vec<[f64; 2]> = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-            let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
-            let tractions: Vec<[f64; 2]> = jumps.iter().enumerate().map(traction).collect();
-            for (p, (point, r)) in joint.coupling.points.iter().zip(&jumps).enumerate() {
-                let initial = initial.at(p);
-                let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial[i]) * r[i]).sum();
-                self.stored += model.thickness * point.weight * energy;
-            }
-            self.snapshot.jumps.push(jumps);
-            self.snapshot.tractions.push(tractions);
-        }
-    }
-
-    /// Values of the scene's probes, then of its reactions.
-    pub fn probes(&self, problem: &Problem) -> Vec<f64> {
-        let input = ProbeInput {
-            u: &self.snapshot.u,
-            jumps: &self.snapshot.jumps,
-            tractions: &self.snapshot.tractions,
-            stored: self.stored,
-            dissipated: 0.0,
-            work: self.work,
-        };
-        let probes = problem.probes.iter().map(|(_, probe)| probe.value(&problem.model, &input));
-        let reactions = problem
-            .reactions
-            .iter()
-            .map(|reaction| reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum());
-        probes.chain(reactions).collect()
-    }
-}
-
-fn stresses(model: &Model, body: usize, u: &[f64]) -> Stresses {
-    let of = &model.bodies[body];
-    recover(&of.mesh, &u[model.dofs_of(body)], &of.elasticity, model.thickness)
+/// The smallest increment has none: where it was lost, and the law points that are farthest from it.
+fn no_equilibrium(
+    problem: &Problem,
+    stage: &Stage,
+    increment: usize,
+    kept: usize,
+    level: f64,
+    why: &Unconverged,
+) -> Error {
+    let worst: Vec<String> = why
+        .worst
+        .iter()
+        .map(|&(joint, point)| {
+            let joint = &problem.model.joints[joint];
+            let point = &joint.coupling.points[point];
+            format!("{} at ({:.6}, {:.6})", joint.name, point.position[0], point.position[1])
+        })
+        .collect();
+    let reason =
+        format!("{} beyond load factor {level:.6}; worst law points: {}", why.reason, worst.join(", "));
+    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
 }

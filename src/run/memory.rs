@@ -2,7 +2,6 @@
 
 use crate::assembly::Pattern;
 use crate::error::{Error, Result};
-use crate::solver::Plan;
 
 /// Vectors, stresses and the fields being written, per dof [bytes], as measured.
 const PER_DOF: u64 = 320;
@@ -27,9 +26,9 @@ fn kilobytes(file: &str, key: &str) -> Option<u64> {
 
 /// Memory that a run still needs once its matrix is analysed [bytes]: the factor with what it takes to make it, the
 /// matrix that is factored, and what grows with the dofs.
-pub(super) fn needed(plan: &Plan, pattern: &Pattern) -> u64 {
+pub(super) fn needed(factor: usize, pattern: &Pattern) -> u64 {
     let matrix = size_of::<f64>() * pattern.rows.len();
-    (plan.bytes() + matrix) as u64 + PER_DOF * pattern.size() as u64
+    (factor + matrix) as u64 + PER_DOF * pattern.size() as u64
 }
 
 /// Refuses a run that needs more than there is.

@@ -3,16 +3,19 @@
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
 mod clock;
+mod engine;
 mod folder;
 mod march;
 pub mod memory;
 pub mod point;
 mod prepare;
+mod state;
 mod summary;
 
 pub use clock::Clock;
-pub use march::{Place, State, Totals, march, march_within};
+pub use march::{Place, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
+pub use state::State;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -86,7 +89,6 @@ pub struct Done {
 /// Runs a scene: prepares, solves, writes.
 pub fn run(options: &Options, listen: Listener) -> Result<Done> {
     let Prepared { scene, name, problem, mut folder, mut clock } = prepare(options, listen)?;
-    prepare::refuse_nonlinear(&scene)?;
     let path = folder.path().to_path_buf();
     let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
     let listen = std::cell::RefCell::new(listen);
@@ -122,8 +124,9 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
             step: place.stage.name.clone(),
             increment: place.increment,
             load_factor: place.load_factor,
-            iterations: 0,
-            residual: state.backward_error,
+            iterations: place.iterations,
+            residual: state.residual,
+            energy_balance: state.energy_balance(),
             values: state.probes(&problem),
         };
         writer.row(&row)?;

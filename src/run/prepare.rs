@@ -106,18 +106,6 @@ fn scene_name(file: &Path) -> String {
     }
 }
 
-/// Refuses a joint whose law needs iterations, which `run` does not have yet.
-pub(super) fn refuse_nonlinear(scene: &Scene) -> Result<()> {
-    for (name, interface) in &scene.interfaces {
-        if !matches!(interface.law, crate::law::Law::Elastic(_)) {
-            let what = "the law is not elastic, and a run solves elastic joints only";
-            let cure = "set \"type\": \"elastic\", or drive one point of the law with `midplane law`";
-            return Err(scene.source.refuse(&["interfaces", name, "law"], what, cure));
-        }
-    }
-    Ok(())
-}
-
 /// Names of the history's columns after the fixed ones: probes, then reactions.
 pub(super) fn columns(problem: &Problem) -> Vec<String> {
     let reactions = problem

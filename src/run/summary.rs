@@ -56,12 +56,17 @@ struct InterfaceSize {
 struct Solution {
     increments: usize,
     iterations: usize,
+    /// Increments that had to be halved.
+    halved: usize,
     factorisations: usize,
-    /// "joined" or "in parts".
+    /// "joined", "in parts", "condensed" or "plain".
     strategy: &'static str,
     factor_entries: usize,
-    /// Largest componentwise backward error max |r| / (|A| |u| + |f|) of all increments.
-    backward_error: f64,
+    /// Largest residual of all increments: the componentwise backward error max |r| / (|A| |u| + |f|) of a linear scene,
+    /// the out-of-balance force relative to the forces in the model of any other.
+    residual: f64,
+    /// Largest |work − stored − dissipated| over the largest of them.
+    energy_balance: f64,
 }
 
 /// Applied loads against reactions at the last increment.
@@ -142,11 +147,13 @@ pub(super) fn summary<'a>(
         },
         solution: Solution {
             increments: totals.increments,
-            iterations: 0,
+            iterations: totals.iterations,
+            halved: totals.halved,
             factorisations: totals.factorisations,
             strategy: totals.strategy,
             factor_entries: totals.factor_entries,
-            backward_error: totals.backward_error,
+            residual: totals.residual,
+            energy_balance: totals.energy_balance,
         },
         equilibrium,
         time,

@@ -11,12 +11,14 @@ pub mod probe;
 mod read;
 mod schema;
 mod set;
+mod solution;
 mod source;
 mod value;
 
 pub use expression::{Place, Variable};
 pub use read::{parse, read};
 pub use schema::scene_schema;
+pub use solution::{Solution, Strategy, Tangent};
 pub use source::Source;
 pub use value::Value;
 
@@ -50,6 +52,9 @@ pub struct Scene {
     pub interfaces: IndexMap<String, Interface>,
     /// The load history, in order.
     pub steps: Vec<Step>,
+    /// How equilibrium is found where a joint is not elastic.
+    #[serde(default)]
+    pub solution: Solution,
     /// What is written.
     #[serde(default)]
     pub output: Output,
@@ -186,6 +191,12 @@ pub struct Step {
     /// load_factor is not ramped: it is the displacement at every load level.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub displace: IndexMap<String, Displace>,
+    /// Directions held at the displacement that they have at the start of the step, by group.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub hold: IndexMap<String, Vec<Direction>>,
+    /// Directions freed, by group; the reaction goes to zero over the step. A point of several groups is freed for all.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub release: IndexMap<String, Vec<Direction>>,
     /// Loads by group, ramped from their last value. A load in whose formulas load_factor occurs is not ramped: they
     /// are its value at every load level of the step, and that at load_factor 1 afterwards.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]

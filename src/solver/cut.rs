@@ -8,9 +8,10 @@
 //! ```
 
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 use super::Order;
-use super::graph::{Graph, NONE, elimination_tree};
+use super::graph::{Graph, NONE, elimination_tree, postorder};
 use crate::assembly::Pattern;
 
 /// Number of parts. On two threads four take a quarter longer: their border is more than twice as large.
@@ -71,6 +72,26 @@ impl Cut {
         parts.iter_mut().for_each(|part| part.sort_unstable());
         let nodes = |places: Vec<u32>| places.into_iter().map(|place| order[place as usize]).collect();
         Cut { graph, components, parts: parts.into_iter().map(nodes).collect(), border: nodes(border) }
+    }
+
+    /// One part a body, all nodes of the joints in the border: what is left is the condensation on the joints.
+    /// `bodies` are ranges of nodes that no entry of the pattern connects; an order of all nodes serves all parts.
+    pub fn along_joints(pattern: &Pattern, order: &Order, bodies: &[Range<usize>], joined: &[bool]) -> Cut {
+        let (graph, components) = (Graph::new(pattern), pattern.components());
+        let order = order.forward.iter().step_by(components).map(|dof| dof / components as u32);
+        let (border, mut nodes): (Vec<u32>, Vec<u32>) = order.partition(|&node| joined[node as usize]);
+        let inner = nodes.len();
+        nodes.extend(&border);
+        let mut parents = elimination_tree(&graph, &nodes);
+        parents.truncate(inner);
+        parents.iter_mut().filter(|parent| **parent as usize >= inner).for_each(|parent| *parent = NONE);
+        let mut parts = vec![Vec::new(); bodies.len()];
+        for place in postorder(&parents) {
+            let node = nodes[place as usize];
+            parts[bodies.partition_point(|body| body.end <= node as usize)].push(node);
+        }
+        parts.retain(|part| !part.is_empty());
+        Cut { graph, components, parts, border }
     }
 
     /// Whether the border is small beside the parts, and every part has something to do.

@@ -8,8 +8,9 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatRef, Par};
 
+use super::dense::column_mut;
 use super::graph::Graph;
 use super::{NotPositiveDefinite, Symbolic};
 use crate::assembly::{Pattern, Symmetric};
@@ -91,9 +92,22 @@ impl Block {
 }
 
 impl Part {
-    /// L and −B A⁻¹ Bᵀ.
-    pub(super) fn factor(&self, matrix: &Symmetric) -> Result<(Vec<f64>, Mat<f64>), NotPositiveDefinite> {
-        let entries: Vec<f64> = self.block.source.iter().map(|&at| matrix.values[at as usize]).collect();
+    /// L and −B A⁻¹ Bᵀ. With `lifted` the diagonal of C is doubled on the way, which changes neither: the part need not
+    /// be positive definite as a whole then, only without its border.
+    pub(super) fn factor(
+        &self,
+        matrix: &Symmetric,
+        lifted: bool,
+    ) -> Result<(Vec<f64>, Mat<f64>), NotPositiveDefinite> {
+        let mut entries: Vec<f64> = self.block.source.iter().map(|&at| matrix.values[at as usize]).collect();
+        let lift: Vec<f64> = (self.inner..self.block.dofs.len())
+            .map(|j| {
+                let diagonal = &mut entries[self.block.offsets[j] as usize];
+                let lift = if lifted { *diagonal } else { 0.0 };
+                *diagonal += lift;
+                lift
+            })
+            .collect();
         let values = self.plan.factor_values(SparseColMatRef::new(self.block.structure(), &entries))?;
         drop(entries);
         let m = self.border.len();
@@ -120,6 +134,7 @@ impl Part {
             Par::Seq,
         );
         self.block.visit(matrix, self.inner, |i, j, value| s[(i - self.inner, j - self.inner)] -= value);
+        lift.iter().enumerate().for_each(|(j, lift)| s[(j, j)] -= lift);
         Ok((values, s))
     }
 
@@ -166,10 +181,4 @@ struct Own<'a> {
 
 fn column(x: &[f64]) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice(x, x.len(), 1)
-}
-
-/// A vector as a matrix of one column.
-pub(super) fn column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
-    let n = x.len();
-    MatMut::from_column_major_slice_mut(x, n, 1)
 }

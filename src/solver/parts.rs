@@ -15,14 +15,13 @@
 //! 400 000 and a million dofs (alternating runs), with a sixth more memory; on one thread at 400 000 dofs 1.2.
 //! Cut along the joint instead, one body a part, the border is three times as large and the time 0.91 and 0.94.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt;
 use faer::{Mat, Par};
 use rayon::prelude::*;
 
 use super::cut::Cut;
+use super::dense::{cholesky, cholesky_solve};
 use super::graph::NONE;
-use super::part::{Block, Part, column_mut};
+use super::part::{Block, Part};
 use super::{NotPositiveDefinite, Symbolic, TooLarge};
 use crate::assembly::{Pattern, Symmetric};
 
@@ -105,9 +104,26 @@ impl Parts {
         self.parts.iter().map(part).sum::<usize>() + dense(self.border.dofs.len())
     }
 
-    /// Factors a matrix on the pattern that was analysed.
-    pub fn factor(&self, matrix: &Symmetric) -> Result<PartsFactor<'_>, NotPositiveDefinite> {
-        let factored: Vec<_> = self.parts.par_iter().map(|part| part.factor(matrix)).collect();
+    /// Number of dofs in the border.
+    pub fn border(&self) -> usize {
+        self.border.dofs.len()
+    }
+
+    /// Place of every dof of the model in the border, `None` inside the parts.
+    pub fn places(&self, dofs: usize) -> Vec<Option<u32>> {
+        let mut places = vec![None; dofs];
+        (0..).zip(&self.border.dofs).for_each(|(k, &dof)| places[dof as usize] = Some(k));
+        places
+    }
+
+    /// Eliminates the parts: the values of their L, and the lower triangle of S. With `lifted` the parts need to be
+    /// positive definite only without their border.
+    pub fn eliminate(
+        &self,
+        matrix: &Symmetric,
+        lifted: bool,
+    ) -> Result<(Vec<Vec<f64>>, Mat<f64>), NotPositiveDefinite> {
+        let factored: Vec<_> = self.parts.par_iter().map(|part| part.factor(matrix, lifted)).collect();
         let mut s = Mat::zeros(self.border.dofs.len(), self.border.dofs.len());
         self.border.visit(matrix, 0, |i, j, value| s[(i, j)] += value);
         let mut values = Vec::new();
@@ -120,28 +136,22 @@ impl Parts {
                 }
             }
         }
-        let par = Par::Seq; // one order of summation for any number of threads
-        let mut memory =
-            MemBuffer::new(llt::factor::cholesky_in_place_scratch::<f64>(s.nrows(), par, Default::default()));
-        llt::factor::cholesky_in_place(
-            s.as_mut(),
-            Default::default(),
-            par,
-            MemStack::new(&mut memory),
-            Default::default(),
-        )
-        .map_err(|_| NotPositiveDefinite)?;
+        Ok((values, s))
+    }
+
+    /// Factors a matrix on the pattern that was analysed.
+    pub fn factor(&self, matrix: &Symmetric) -> Result<PartsFactor<'_>, NotPositiveDefinite> {
+        let (values, mut s) = self.eliminate(matrix, false)?;
+        cholesky(&mut s, Par::Seq)?; // one order of summation for any number of threads
         Ok(PartsFactor { plan: self, values, border: s })
     }
-}
 
-impl PartsFactor<'_> {
-    /// Solves A x = b in place.
-    pub fn solve(&self, b: &mut [f64]) {
-        let Parts { parts, border } = self.plan;
+    /// Solves A x = b in place with the parts' factors and whatever solves S x_C = b_C in place.
+    pub fn solve(&self, values: &[Vec<f64>], b: &mut [f64], border_solve: impl FnOnce(&mut [f64])) {
+        let Parts { parts, border } = self;
         let mut inner: Vec<Vec<f64>> = parts
             .par_iter()
-            .zip(&self.values)
+            .zip(values)
             .map(|(part, values)| {
                 let mut y = vec![0.0; part.block.dofs.len()];
                 y.iter_mut()
@@ -156,15 +166,8 @@ impl PartsFactor<'_> {
         for (part, y) in parts.iter().zip(&inner) {
             part.border.iter().zip(&y[part.inner..]).for_each(|(&k, y)| x[k as usize] += y);
         }
-        let m = x.len();
-        let mut memory = MemBuffer::new(llt::solve::solve_in_place_scratch::<f64>(m, 1, Par::Seq));
-        llt::solve::solve_in_place(
-            self.border.as_ref(),
-            column_mut(&mut x),
-            Par::Seq,
-            MemStack::new(&mut memory),
-        );
-        parts.par_iter().zip(&self.values).zip(&mut inner).for_each(|((part, values), y)| {
+        border_solve(&mut x);
+        parts.par_iter().zip(values).zip(&mut inner).for_each(|((part, values), y)| {
             y[part.inner..].iter_mut().zip(&part.border).for_each(|(y, &k)| *y = x[k as usize]);
             part.backward(values, y);
         });
@@ -172,5 +175,12 @@ impl PartsFactor<'_> {
             part.block.dofs.iter().zip(y).take(part.inner).for_each(|(&dof, y)| b[dof as usize] = *y);
         }
         border.dofs.iter().zip(&x).for_each(|(&dof, x)| b[dof as usize] = *x);
+    }
+}
+
+impl PartsFactor<'_> {
+    /// Solves A x = b in place.
+    pub fn solve(&self, b: &mut [f64]) {
+        self.plan.solve(&self.values, b, |x| cholesky_solve(&self.border, x));
     }
 }

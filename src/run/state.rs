@@ -1,0 +1,174 @@
+//! The model after an increment: what converged, and its energies.
+//!
+//! ```text
+//! stored      ½ uᵀ K u + Σ h w ½ tᵀ D⁻¹ t          dissipated   Σ h w ∫ t · dr^p, as the laws integrate it
+//! work        ½ (f₀ + f₁) · Δu  +  Σ h w (∫ t · dr − ½ (t₀ + t₁) · Δr)
+//! ```
+//!
+//! f: loads and reactions. The second sum is the work that the trapezoidal rule misses where a joint cracks or slides within
+//! an increment: the work is that of the forces which hold the model in equilibrium on the straight way between two
+//! increments. It is exact where displacements are prescribed, and the balance closes if, and only if, both ends of the
+//! increment are in equilibrium and nothing is forgotten.
+
+use crate::assembly::Model;
+use crate::continuum::{Stresses, recover};
+use crate::law::{self, Law};
+use crate::output::Snapshot;
+use crate::problem::{ProbeInput, Problem};
+use crate::solver::Solution;
+
+/// The model after an increment.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Displacements, stresses, jumps, tractions.
+    pub snapshot: Snapshot,
+    /// External forces by dof [force].
+    pub force: Vec<f64>,
+    /// Reactions by dof [force].
+    pub reactions: Vec<f64>,
+    /// Componentwise backward error of the solution; relative out-of-balance force where joints are not elastic.
+    pub residual: f64,
+    /// Elastic energy of bodies and joints [force × length].
+    pub stored: f64,
+    /// Energy dissipated by the joints so far [force × length].
+    pub dissipated: f64,
+    /// Work of loads and prescribed displacements so far [force × length].
+    pub work: f64,
+    /// Largest energy so far [force × length].
+    largest: f64,
+}
+
+/// A joint that is not elastic, after an increment that converged.
+#[derive(Debug, Clone)]
+pub(super) struct JointAnswer {
+    /// Its number.
+    pub(super) joint: usize,
+    /// Jump (n, t) at the law points.
+    pub(super) jumps: Vec<[f64; 2]>,
+    /// State and dissipation per area of the law points.
+    pub(super) memory: Vec<(law::State, f64)>,
+}
+
+/// An increment that converged.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    pub(super) solution: Solution,
+    /// Joints that are not elastic.
+    pub(super) joints: Vec<JointAnswer>,
+    pub(super) iterations: usize,
+    pub(super) residual: f64,
+}
+
+impl State {
+    /// Before the first increment.
+    pub(super) fn unloaded(problem: &Problem) -> State {
+        let u = vec![0.0; problem.model.dofs()];
+        let none = |joint: &crate::assembly::Joint| vec![[0.0; 2]; joint.coupling.points.len()];
+        let snapshot = Snapshot {
+            u: u.clone(),
+            jumps: problem.model.joints.iter().map(none).collect(),
+            states: problem.states.clone(),
+            ..Snapshot::default()
+        };
+        let (force, reactions) = (u.clone(), u);
+        let (residual, stored, dissipated, work, largest) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut state = State { snapshot, force, reactions, residual, stored, dissipated, work, largest };
+        state.recover(problem);
+        state
+    }
+
+    /// Takes what converged under external forces `force`.
+    pub(super) fn accept(&mut self, problem: &Problem, found: Found, force: Vec<f64>) {
+        let Found { solution: Solution { u, reactions, .. }, joints, residual, .. } = found;
+        self.work += (0..u.len())
+            .map(|i| {
+                let mean = 0.5 * (force[i] + reactions[i] + self.force[i] + self.reactions[i]);
+                mean * (u[i] - self.snapshot.u[i])
+            })
+            .sum::<f64>();
+        for JointAnswer { joint, jumps, memory } in joints {
+            let (law, _) = &problem.laws[joint];
+            let old = &mut self.snapshot.states[joint];
+            let points = &problem.model.joints[joint].coupling.points;
+            for ((point, old), (new, dissipation)) in points.iter().zip(old).zip(memory) {
+                let area = problem.model.thickness * point.weight;
+                let along = elastic_energy(law, &new) - elastic_energy(law, old) + dissipation;
+                let trapezium = 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump));
+                self.work += area * (along - trapezium);
+                self.dissipated += area * dissipation;
+                *old = new;
+            }
+            self.snapshot.jumps[joint] = jumps;
+        }
+        (self.snapshot.u, self.force, self.reactions, self.residual) = (u, force, reactions, residual);
+    }
+
+    /// Stresses, tractions and stored energy of the displacements and states.
+    pub(super) fn recover(&mut self, problem: &Problem) {
+        let Problem { model, laws, .. } = problem;
+        let u = &self.snapshot.u;
+        self.snapshot.stresses = (0..model.bodies.len()).map(|b| stresses(model, b, u)).collect();
+        self.stored = self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum();
+        self.snapshot.tractions = Vec::new();
+        for (k, (joint, (law, initial))) in model.joints.iter().zip(laws).enumerate() {
+            let area = |p: usize| model.thickness * joint.coupling.points[p].weight;
+            if let Law::Elastic(_) = law {
+                let d = law.elastic_stiffness();
+                let jumps: Vec<[f64; 2]> = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
+                self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
+                for (p, r) in jumps.iter().enumerate() {
+                    let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial.at(p)[i]) * r[i]).sum();
+                    self.stored += area(p) * energy;
+                }
+                self.snapshot.jumps[k] = jumps;
+            } else {
+                let states = &self.snapshot.states[k];
+                for (p, (state, start)) in states.iter().zip(&problem.states[k]).enumerate() {
+                    self.stored += area(p) * (elastic_energy(law, state) - elastic_energy(law, start));
+                }
+                let traction = |state: &law::State| [state.traction.x, state.traction.y];
+                self.snapshot.tractions.push(states.iter().map(traction).collect());
+            }
+        }
+        let energies = [self.work, self.stored, self.dissipated].map(f64::abs);
+        self.largest = energies.into_iter().fold(self.largest, f64::max);
+    }
+
+    /// work − stored − dissipated over the largest of them so far.
+    pub fn energy_balance(&self) -> f64 {
+        let left = self.work - self.stored - self.dissipated;
+        if left == 0.0 { 0.0 } else { left / self.largest }
+    }
+
+    /// Values of the scene's probes, then of its reactions.
+    pub fn probes(&self, problem: &Problem) -> Vec<f64> {
+        let input = ProbeInput {
+            u: &self.snapshot.u,
+            jumps: &self.snapshot.jumps,
+            tractions: &self.snapshot.tractions,
+            states: &self.snapshot.states,
+            stored: self.stored,
+            dissipated: self.dissipated,
+            work: self.work,
+        };
+        let probes = problem.probes.iter().map(|(_, probe)| probe.value(&problem.model, &input));
+        let reactions = problem
+            .reactions
+            .iter()
+            .map(|reaction| reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum());
+        probes.chain(reactions).collect()
+    }
+}
+
+/// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].
+fn elastic_energy(law: &Law, state: &law::State) -> f64 {
+    let [kn, kt] = law.elastic_stiffness();
+    let t = state.traction;
+    0.5 * (t.x * t.x / kn + t.y * t.y / kt)
+}
+
+fn stresses(model: &Model, body: usize, u: &[f64]) -> Stresses {
+    let of = &model.bodies[body];
+    recover(&of.mesh, &u[model.dofs_of(body)], &of.elasticity, model.thickness)
+}

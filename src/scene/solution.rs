@@ -1,0 +1,49 @@
+//! How equilibrium is found: knobs that trade speed for accuracy. A linear scene uses none of them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How equilibrium is found.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Solution {
+    /// On which unknowns Newton works.
+    pub strategy: Strategy,
+    /// Largest out-of-balance force, relative to the forces in the model.
+    pub tolerance: f64,
+    /// Most iterations of an increment; one that needs more is cut in halves.
+    pub iterations: usize,
+    /// The tangent of the iteration.
+    pub tangent: Tangent,
+}
+
+/// On which unknowns Newton works.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Strategy {
+    /// `condensed` unless its dense matrices would be too large.
+    #[default]
+    Auto,
+    /// The jump coefficients: the bodies are factored once, an iteration touches the joints only.
+    Condensed,
+    /// All displacements: the whole matrix is factored in every iteration.
+    Plain,
+}
+
+/// The tangent of the iteration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Tangent {
+    /// The derivative of the laws: quadratic convergence.
+    #[default]
+    Consistent,
+    /// The stiffness of the sound joints: linear convergence at best.
+    Initial,
+}
+
+impl Default for Solution {
+    fn default() -> Solution {
+        let (strategy, tangent) = (Strategy::default(), Tangent::default());
+        Solution { strategy, tolerance: 1e-10, iterations: 25, tangent }
+    }
+}

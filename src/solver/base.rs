@@ -1,0 +1,126 @@
+//! The base system K₀ = K + Gᵀ T₀ G of one set of supports: soft springs in place of the laws.
+//!
+//! T₀ has the size E/h, never K_N, so that K₀ is positive definite also for floating bodies and well conditioned; what the
+//! laws answer differently is the business of the interface problem (`dual`).
+
+use std::sync::Arc;
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, Mat};
+
+use super::dense::{cholesky, cholesky_solve, parallelism};
+use super::linear::tractions;
+use super::refine::Factored;
+use super::{Condensation, Continuum, NotPositiveDefinite, Solution};
+use crate::assembly::{Joint, Tangent};
+
+/// A factored base system.
+#[derive(Debug)]
+pub struct Base<'a> {
+    continuum: &'a Continuum,
+    condensation: Arc<Condensation>,
+    pub(super) joints: &'a [Joint],
+    /// Law stiffness of every joint's springs, components² values per law point.
+    stiffness: &'a [Vec<f64>],
+    held: Vec<bool>,
+    /// L of S + Gᵀ T₀ G with the supports on joints.
+    border: Mat<f64>,
+}
+
+impl<'a> Base<'a> {
+    /// Adds springs and supports on the joints to a condensation that serves these supports.
+    pub fn new(
+        continuum: &'a Continuum,
+        condensation: Arc<Condensation>,
+        joints: &'a [Joint],
+        stiffness: &'a [Vec<f64>],
+        held: &[bool],
+    ) -> Result<Base<'a>, NotPositiveDefinite> {
+        let mut border = condensation.schur.clone();
+        let place = |dof: usize| continuum.places[dof].map(|place| place as usize);
+        for (joint, stiffness) in joints.iter().zip(stiffness) {
+            let mut tangent = Tangent::new(joint);
+            tangent.fill(joint, stiffness);
+            joint.visit_stiffness(&tangent.matrix, |row, column, value| {
+                if let (Some(i), Some(j)) = (place(row), place(column))
+                    && i >= j
+                {
+                    border[(i, j)] += value;
+                }
+            });
+        }
+        for (dof, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+            if let Some(k) = place(dof) {
+                (0..k).for_each(|j| border[(k, j)] = 0.0);
+                (k + 1..border.nrows()).for_each(|i| border[(i, k)] = 0.0);
+            }
+        }
+        cholesky(&mut border, parallelism(continuum.parts.border()))?;
+        Ok(Base { continuum, condensation, joints, stiffness, held: held.to_vec(), border })
+    }
+
+    /// Solves for external forces `f` and prescribed displacements (read where held).
+    pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> Solution {
+        self.refined(f, prescribed)
+    }
+
+    /// F₀ = G K₀⁻¹ Gᵀ on the jump coefficients of some joints, zero where nodes are held.
+    pub(super) fn flexibility(&self, active: &[usize]) -> Mat<f64> {
+        let m: usize = active.iter().map(|&k| self.joints[k].size()).sum();
+        let mut x = Mat::zeros(self.border.nrows(), m);
+        let mut column = 0;
+        for &k in active {
+            let joint = &self.joints[k];
+            for i in 0..joint.size() {
+                let (dofs, values) = joint.row(i);
+                for (&dof, &value) in dofs.iter().zip(values).filter(|(dof, _)| !self.held[**dof]) {
+                    if let Some(place) = self.continuum.places[dof] {
+                        x[(place as usize, column)] = value;
+                    }
+                }
+                column += 1;
+            }
+        }
+        let par = parallelism(m);
+        solve_lower_triangular_in_place(self.border.as_ref(), x.as_mut(), par);
+        let mut flexibility = Mat::zeros(m, m);
+        matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, par);
+        flexibility
+    }
+}
+
+impl Factored for Base<'_> {
+    fn held(&self) -> &[bool] {
+        &self.held
+    }
+
+    fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+        let mut force = vec![0.0; f.len()];
+        self.continuum.stiffness.add_product(&self.continuum.pattern, u, &mut force);
+        for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
+            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+        }
+        f.iter().zip(force).map(|(f, force)| f - force).collect()
+    }
+
+    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
+        self.continuum.stiffness.add_absolute_product(&self.continuum.pattern, u, scale);
+        for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
+            let mut force = vec![0.0; u.len()];
+            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+            scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
+        }
+    }
+
+    fn apply(&self, b: &mut [f64]) {
+        self.continuum.solve(&self.condensation, b, |x| {
+            for (dof, _) in self.held.iter().enumerate().filter(|(_, held)| **held) {
+                if let Some(place) = self.continuum.places[dof] {
+                    x[place as usize] = 0.0;
+                }
+            }
+            cholesky_solve(&self.border, x);
+        });
+    }
+}

@@ -1,0 +1,139 @@
+//! The equilibrium on the jump coefficients: the continuum is linear, so an iteration does not touch it.
+//!
+//! ```text
+//! R(a) = a + F₀ (q(a) − T₀ a) − a₀     F₀ = G K₀⁻¹ Gᵀ     a₀ = G K₀⁻¹ f
+//! J    = I + F₀ (T − T₀)               u  = K₀⁻¹ (f − Gᵀ (q − T₀ a))
+//! ```
+//!
+//! Neither F₀ nor T is inverted: F₀ is singular where interface nodes are held, T where a joint slides or is open. The
+//! system is well conditioned at every K_N. Elastic joints are part of K₀, only the others are asked (`active`).
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
+
+use super::dense::{Lu, column_mut};
+use super::{Base, Form, Solution};
+use crate::assembly::{Joint, Tangent};
+use crate::coupling::Csr;
+
+/// The condensed form under one set of supports.
+#[derive(Debug)]
+pub struct Dual<'a> {
+    base: Base<'a>,
+    active: Vec<usize>,
+    /// T₀ of every active joint.
+    springs: Vec<Csr>,
+    /// First unknown of every active joint, and the end.
+    first: Vec<usize>,
+    flexibility: Mat<f64>,
+    jacobian: Option<Lu>,
+    /// Values of the tangents that are factored.
+    factored: Vec<Vec<f64>>,
+}
+
+impl<'a> Dual<'a> {
+    /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point.
+    pub fn new(base: Base<'a>, active: &[usize], stiffness: &[Vec<f64>]) -> Dual<'a> {
+        let springs: Vec<Csr> = active
+            .iter()
+            .map(|&k| {
+                let mut tangent = Tangent::new(&base.joints[k]);
+                tangent.fill(&base.joints[k], &stiffness[k]);
+                tangent.matrix
+            })
+            .collect();
+        let mut first = vec![0];
+        springs.iter().for_each(|springs| first.push(first[first.len() - 1] + springs.rows()));
+        let flexibility = base.flexibility(active);
+        let active = active.to_vec();
+        Dual { base, active, springs, first, flexibility, jacobian: None, factored: Vec::new() }
+    }
+
+    fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
+        &x[self.first[k]..self.first[k + 1]]
+    }
+
+    /// q − T₀ a.
+    fn excess(&self, a: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
+        let of = |k: usize| self.springs[k].multiply(self.part(k, a)).into_iter().zip(&forces[k]);
+        (0..self.active.len()).flat_map(|k| of(k).map(|(spring, q)| q - spring).collect::<Vec<_>>()).collect()
+    }
+}
+
+impl Form for Dual<'_> {
+    fn joints(&self) -> &[Joint] {
+        self.base.joints
+    }
+
+    fn active(&self) -> &[usize] {
+        &self.active
+    }
+
+    fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
+        let u = self.base.solve(force, prescribed).u;
+        self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&u)).collect()
+    }
+
+    fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        (0..self.active.len()).map(|k| self.part(k, x).to_vec()).collect()
+    }
+
+    fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
+        let m = x.len();
+        let mut residual: Vec<f64> = x.iter().zip(target).map(|(a, a0)| a - a0).collect();
+        let excess = self.excess(x, forces);
+        let excess = MatRef::from_column_major_slice(&excess, m, 1);
+        matmul(column_mut(&mut residual), Accum::Add, self.flexibility.as_ref(), excess, 1.0, Par::Seq);
+        residual
+    }
+
+    /// What the springs would make of the misfit, over what the joints carry and what the springs alone would carry.
+    fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
+        let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
+        let (mut misfit, mut scale) = (0.0, 0.0);
+        for k in 0..self.active.len() {
+            misfit += squares(&self.springs[k].multiply(self.part(k, residual)));
+            scale += squares(&forces[k]) + squares(&self.springs[k].multiply(self.part(k, target)));
+        }
+        if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
+    }
+
+    fn factor(&mut self, tangents: &[Tangent]) -> bool {
+        let same = |(old, new): (&Vec<f64>, &Tangent)| *old == new.matrix.values;
+        if self.jacobian.is_some() && self.factored.iter().zip(tangents).all(same) {
+            return true;
+        }
+        let m = self.flexibility.nrows();
+        let mut jacobian = Mat::<f64>::identity(m, m);
+        for (k, tangent) in tangents.iter().enumerate() {
+            let first = self.first[k];
+            // the springs' pattern is the tangent's own
+            for i in 0..tangent.matrix.rows() {
+                let from = self.flexibility.col(first + i);
+                let (columns, values) = tangent.matrix.row(i);
+                for ((&j, value), spring) in columns.iter().zip(values).zip(self.springs[k].row(i).1) {
+                    let (into, factor) = (jacobian.col_mut(first + j), value - spring);
+                    faer::zip!(into, from).for_each(|faer::unzip!(into, from)| *into += factor * *from);
+                }
+            }
+        }
+        self.factored = tangents.iter().map(|tangent| tangent.matrix.values.clone()).collect();
+        self.jacobian = Some(Lu::new(jacobian));
+        true
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        if let Some(jacobian) = &self.jacobian {
+            jacobian.solve(b);
+        }
+    }
+
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
+        let mut load = force.to_vec();
+        let excess: Vec<f64> = self.excess(x, forces).iter().map(|q| -q).collect();
+        for (k, &joint) in self.active.iter().enumerate() {
+            self.base.joints[joint].add_nodal(self.part(k, &excess), &mut load);
+        }
+        self.base.solve(&load, prescribed)
+    }
+}

@@ -1,0 +1,289 @@
+//! Newton's method with a line search, for any form of the equilibrium K u + Gᵀ q(G u) = f.
+//!
+//! A form (`dual`, `plain`) turns the equation into a residual R(x) of its own unknowns x and solves with its own
+//! Jacobian; laws answer jump by jump. The line search halves a step until the residual decreases: where points open, stick
+//! and slide by turns, full steps run in circles.
+
+use rayon::prelude::*;
+
+use crate::assembly::{Joint, Tangent};
+
+use super::Solution;
+
+/// A law point is asked by itself; fewer than this many are not worth a thread.
+const CHUNK: usize = 32;
+/// Most halvings of a step.
+const HALVINGS: usize = 10;
+/// Part of the linear prediction by which a step must reduce the residual.
+const SUFFICIENT: f64 = 1e-4;
+/// Law points that are named when no equilibrium is found.
+const NAMED: usize = 3;
+
+/// What answers at the law points.
+pub trait Respond: Sync {
+    /// What a point remembers of an answer.
+    type Memory: Send;
+
+    /// Fills the traction (components) and its derivative by the jump (components², by rows) at a jump (n, t, …) of a law
+    /// point; on failure the reason.
+    fn respond(
+        &self,
+        joint: usize,
+        point: usize,
+        jump: &[f64],
+        traction: &mut [f64],
+        stiffness: &mut [f64],
+    ) -> Result<Self::Memory, String>;
+
+    /// Fills the derivative before anything has cracked or slipped.
+    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]);
+}
+
+/// One way to write the equilibrium.
+pub trait Form {
+    /// All joints.
+    fn joints(&self) -> &[Joint];
+    /// Numbers of the joints whose laws are asked.
+    fn active(&self) -> &[usize];
+    /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
+    fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
+    /// Jump coefficients of every active joint.
+    fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
+    /// R(x) for the forces q of every active joint on its jump coefficients.
+    fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
+    /// Size of a residual, as a force, relative to the forces in the model.
+    fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
+    /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
+    fn factor(&mut self, tangents: &[Tangent]) -> bool;
+    /// J⁻¹ b in place.
+    fn solve(&self, b: &mut [f64]);
+    /// Displacements and reactions of a solution.
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution;
+}
+
+/// When Newton ends, and with which tangent it goes.
+#[derive(Debug, Clone, Copy)]
+pub struct Settings {
+    /// Largest relative residual of a solution.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub iterations: usize,
+    /// Stay with the tangent of the sound joints: linear convergence only.
+    pub initial_tangent: bool,
+}
+
+/// A solution, or where Newton stands.
+#[derive(Debug)]
+pub struct Iterate<M> {
+    /// The unknowns of the form.
+    pub x: Vec<f64>,
+    /// Jumps (n, t, …) at the law points of every active joint.
+    pub jumps: Vec<Vec<f64>>,
+    /// Tractions alike.
+    pub tractions: Vec<Vec<f64>>,
+    /// Forces q on the jump coefficients of every active joint.
+    pub forces: Vec<Vec<f64>>,
+    /// What the law points remember.
+    pub memory: Vec<Vec<M>>,
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// Relative residual before every iteration and at the end.
+    pub residuals: Vec<f64>,
+}
+
+/// Why Newton ended without equilibrium.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unconverged {
+    /// In words.
+    pub reason: String,
+    /// Joint and law point that are farthest from equilibrium.
+    pub worst: Vec<(usize, usize)>,
+    /// Linear systems solved.
+    pub iterations: usize,
+}
+
+/// A point of the search and what the laws say there.
+struct Evaluation<M> {
+    jumps: Vec<Vec<f64>>,
+    tractions: Vec<Vec<f64>>,
+    stiffness: Vec<Vec<f64>>,
+    forces: Vec<Vec<f64>>,
+    memory: Vec<Vec<M>>,
+    residual: Vec<f64>,
+    error: f64,
+}
+
+/// Newton's method on one form; the tangents' patterns are built once.
+#[derive(Debug)]
+pub struct Newton {
+    tangents: Vec<Tangent>,
+}
+
+impl Newton {
+    /// For the active joints of a form.
+    pub fn new(form: &impl Form) -> Newton {
+        Newton { tangents: form.active().iter().map(|&k| Tangent::new(&form.joints()[k])).collect() }
+    }
+
+    /// Solves R(x) = 0 from the best of some starting points.
+    pub fn solve<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        starts: &[&Vec<f64>],
+        target: &[f64],
+        settings: Settings,
+    ) -> Result<Iterate<L::Memory>, Unconverged> {
+        let mut best: Option<(Vec<f64>, Evaluation<L::Memory>)> = None;
+        for start in starts {
+            match evaluate(form, laws, start, target) {
+                Ok(there) if best.as_ref().is_none_or(|(_, kept)| there.error < kept.error) => {
+                    best = Some((start.to_vec(), there));
+                }
+                Err(why) if best.is_none() => return Err(why),
+                _ => {}
+            }
+        }
+        let Some((mut x, mut now)) = best else {
+            return Err(Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 });
+        };
+        let mut residuals = vec![now.error];
+        for iterations in 0..=settings.iterations {
+            if now.error <= settings.tolerance {
+                let Evaluation { jumps, tractions, forces, memory, .. } = now;
+                return Ok(Iterate { x, jumps, tractions, forces, memory, iterations, residuals });
+            }
+            if iterations == settings.iterations {
+                break;
+            }
+            let mut correction = self.correction(form, laws, &now, settings, iterations)?;
+            correction.iter_mut().for_each(|value| *value = -*value);
+            let Some((next, there)) = search(form, laws, &x, &correction, target, now.error) else {
+                return Err(unconverged(
+                    form,
+                    "the laws have no answer along the correction",
+                    &now,
+                    iterations,
+                ));
+            };
+            (x, now) = (next, there);
+            residuals.push(now.error);
+        }
+        let reason = format!("out of balance by {:.1e} after {} iterations", now.error, settings.iterations);
+        Err(unconverged(form, &reason, &now, settings.iterations))
+    }
+
+    /// J⁻¹ R.
+    fn correction<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        now: &Evaluation<L::Memory>,
+        settings: Settings,
+        iterations: usize,
+    ) -> Result<Vec<f64>, Unconverged> {
+        let active = form.active().to_vec();
+        for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(&active).zip(&now.stiffness) {
+            let joint = &form.joints()[k];
+            if settings.initial_tangent {
+                let mut stiffness = stiffness.clone();
+                let c = joint.coupling.components;
+                stiffness.chunks_exact_mut(c * c).for_each(|d| laws.initial_stiffness(k, d));
+                tangent.fill(joint, &stiffness);
+            } else {
+                tangent.fill(joint, stiffness);
+            }
+        }
+        let mut correction = now.residual.clone();
+        if form.factor(&self.tangents) {
+            form.solve(&mut correction);
+        }
+        if correction.iter().all(|value| value.is_finite()) {
+            return Ok(correction);
+        }
+        Err(unconverged(form, "the tangent is singular: nothing holds what slides or opens", now, iterations))
+    }
+}
+
+/// The best of the steps tried, from a full one to a thousandth: the first that reduces the residual enough.
+fn search<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+    correction: &[f64],
+    target: &[f64],
+    error: f64,
+) -> Option<(Vec<f64>, Evaluation<L::Memory>)> {
+    let (mut step, mut best) = (1.0, None);
+    for _ in 0..=HALVINGS {
+        let next: Vec<f64> = x.iter().zip(correction).map(|(x, d)| x + step * d).collect();
+        if let Ok(there) = evaluate(form, laws, &next, target)
+            && there.error.is_finite()
+        {
+            let enough = there.error <= (1.0 - SUFFICIENT * step) * error;
+            if best
+                .as_ref()
+                .is_none_or(|(_, kept): &(Vec<f64>, Evaluation<L::Memory>)| there.error < kept.error)
+            {
+                best = Some((next, there));
+            }
+            if enough {
+                break;
+            }
+        }
+        step *= 0.5;
+    }
+    best
+}
+
+fn evaluate<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+    target: &[f64],
+) -> Result<Evaluation<L::Memory>, Unconverged> {
+    let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut forces, mut memory) = (Vec::new(), Vec::new());
+    for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
+        let joint = &form.joints()[k];
+        let c = joint.coupling.components;
+        let jumps = joint.jumps_of(&coefficients);
+        let (mut t, mut d) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
+        let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
+            .zip(t.par_chunks_exact_mut(c))
+            .zip(d.par_chunks_exact_mut(c * c))
+            .enumerate()
+            .with_min_len(CHUNK)
+            .map(|(p, ((jump, t), d))| {
+                laws.respond(k, p, jump, t, d).map_err(|reason| Unconverged {
+                    reason,
+                    worst: vec![(k, p)],
+                    iterations: 0,
+                })
+            })
+            .collect();
+        memory.push(answers?);
+        forces.push(joint.gather(&t));
+        all_jumps.push(jumps);
+        tractions.push(t);
+        stiffness.push(d);
+    }
+    let residual = form.residual(x, &forces, target);
+    let error = form.error(&residual, x, &forces, target);
+    Ok(Evaluation { jumps: all_jumps, tractions, stiffness, forces, memory, residual, error })
+}
+
+/// Names the law points with the largest misfit.
+fn unconverged<M>(form: &impl Form, reason: &str, now: &Evaluation<M>, iterations: usize) -> Unconverged {
+    let mut worst: Vec<(f64, usize, usize)> = Vec::new();
+    for (&k, misfit) in form.active().iter().zip(form.coefficients(&now.residual)) {
+        let joint = &form.joints()[k];
+        let size = |jump: &[f64]| jump.iter().map(|r| r * r).sum::<f64>();
+        let sizes = joint.jumps_of(&misfit);
+        let sizes = sizes.chunks_exact(joint.coupling.components).map(size);
+        worst.extend(sizes.enumerate().map(|(p, size)| (size, k, p)));
+    }
+    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let worst = worst.iter().take(NAMED).map(|&(_, k, p)| (k, p)).collect();
+    Unconverged { reason: reason.into(), worst, iterations }
+}

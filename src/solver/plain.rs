@@ -1,0 +1,157 @@
+//! The equilibrium on the displacements: the plain sparse Newton, factored anew in every iteration.
+//!
+//! ```text
+//! R(u) = K u + Gᵀ q(G u) − f   where free,   k (u − ū)   where held      J = K + Gᵀ T G,   k 1
+//! ```
+//!
+//! The independent check of the condensed form, and the way for joints whose dense flexibility would not fit. Its accuracy
+//! ends at ε K_N h/E, because u_B − u_A is taken before it is multiplied by K_N.
+
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
+use faer::sparse::{SparseColMat, Triplet};
+
+use super::dense::column_mut;
+use super::linear::tractions;
+use super::{Form, Solution};
+use crate::assembly::{Joint, Pattern, Symmetric, Tangent};
+
+/// The plain form under one set of supports.
+#[derive(Debug)]
+pub struct Plain<'a> {
+    joints: &'a [Joint],
+    active: Vec<usize>,
+    /// Law stiffness of the other joints.
+    stiffness: &'a [Vec<f64>],
+    pattern: &'a Pattern,
+    continuum: &'a Symmetric,
+    held: Vec<bool>,
+    /// Size of the continuum's stiffness: scales the equations of held dofs.
+    scale: f64,
+    symbolic: Option<SymbolicLu<usize>>,
+    factor: Option<Lu<usize, f64>>,
+}
+
+impl<'a> Plain<'a> {
+    /// Of the continuum alone on its pattern, with the joints in `active` and, as constant springs, all others.
+    pub fn new(
+        joints: &'a [Joint],
+        active: &[usize],
+        stiffness: &'a [Vec<f64>],
+        pattern: &'a Pattern,
+        continuum: &'a Symmetric,
+        held: &[bool],
+    ) -> Plain<'a> {
+        let diagonal = |j: usize| continuum.values[pattern.column(j).start];
+        let scale = (0..pattern.size()).map(diagonal).fold(0.0, f64::max);
+        let (active, held) = (active.to_vec(), held.to_vec());
+        Plain { joints, active, stiffness, pattern, continuum, held, scale, symbolic: None, factor: None }
+    }
+
+    fn passive(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.joints.len()).filter(|k| !self.active.contains(k))
+    }
+
+    /// K u + Gᵀ q of all joints.
+    fn internal(&self, u: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
+        let mut internal = vec![0.0; u.len()];
+        self.continuum.add_product(self.pattern, u, &mut internal);
+        self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut internal));
+        for k in self.passive() {
+            self.joints[k].add_force(&tractions(&self.joints[k], &self.stiffness[k], u), &mut internal);
+        }
+        internal
+    }
+}
+
+impl Form for Plain<'_> {
+    fn joints(&self) -> &[Joint] {
+        self.joints
+    }
+
+    fn active(&self) -> &[usize] {
+        &self.active
+    }
+
+    fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
+        let value = |i: usize| if self.held[i] { self.scale * prescribed[i] } else { force[i] };
+        (0..force.len()).map(value).collect()
+    }
+
+    fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        self.active.iter().map(|&k| self.joints[k].coefficients(x)).collect()
+    }
+
+    fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
+        let internal = self.internal(x, forces);
+        let value = |i: usize| if self.held[i] { self.scale * x[i] } else { internal[i] };
+        (0..x.len()).map(|i| value(i) - target[i]).collect()
+    }
+
+    /// Over what the bodies, the joints and the loads carry.
+    fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
+        let squares = |v: &mut dyn Iterator<Item = f64>| v.map(|v| v * v).sum::<f64>();
+        let misfit = squares(&mut residual.iter().copied());
+        let internal = self.internal(x, forces);
+        let mut joints = vec![0.0; x.len()];
+        self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut joints));
+        let scale = squares(&mut internal.into_iter())
+            + squares(&mut joints.into_iter())
+            + squares(&mut target.iter().copied());
+        if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
+    }
+
+    fn factor(&mut self, tangents: &[Tangent]) -> bool {
+        let n = self.pattern.size();
+        let mut triplets = Vec::new();
+        let mut entry = |i: usize, j: usize, value: f64| {
+            if !self.held[i] {
+                triplets.push(Triplet::new(i, j, value));
+            }
+        };
+        for j in 0..n {
+            let range = self.pattern.column(j);
+            for (&i, &value) in self.pattern.rows[range.clone()].iter().zip(&self.continuum.values[range]) {
+                entry(i as usize, j, value);
+                if i as usize != j {
+                    entry(j, i as usize, value);
+                }
+            }
+        }
+        for (&k, tangent) in self.active.iter().zip(tangents) {
+            self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
+        }
+        for k in self.passive() {
+            let mut tangent = Tangent::new(&self.joints[k]);
+            tangent.fill(&self.joints[k], &self.stiffness[k]);
+            self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
+        }
+        triplets.extend((0..n).filter(|&i| self.held[i]).map(|i| Triplet::new(i, i, self.scale)));
+        let Ok(matrix) = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &triplets) else {
+            return false;
+        };
+        if self.symbolic.is_none() {
+            self.symbolic = SymbolicLu::try_new(matrix.symbolic()).ok();
+        }
+        self.factor =
+            self.symbolic.clone().and_then(|plan| Lu::try_new_with_symbolic(plan, matrix.as_ref()).ok());
+        self.factor.is_some()
+    }
+
+    fn solve(&self, b: &mut [f64]) {
+        if let Some(factor) = &self.factor {
+            factor.solve_in_place(column_mut(b));
+        }
+    }
+
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
+        let internal = self.internal(x, forces);
+        let residual: Vec<f64> = internal.iter().zip(force).map(|(internal, f)| internal - f).collect();
+        let reactions =
+            residual.iter().zip(&self.held).map(|(r, &held)| if held { *r } else { 0.0 }).collect();
+        let u = (0..x.len()).map(|i| if self.held[i] { prescribed[i] } else { x[i] }).collect();
+        let target = self.target(force, prescribed);
+        let backward_error = self.error(&self.residual(x, forces, &target), x, forces, &target);
+        Solution { u, reactions, backward_error }
+    }
+}
