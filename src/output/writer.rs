@@ -44,11 +44,11 @@ impl Writer {
     pub fn create(folder: &Path, name: &str, columns: &[String]) -> Result<Writer> {
         remove_earlier(folder, name)?;
         std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
-        let mut history = String::from("step,increment,load_factor,iterations,residual,energy_balance");
+        let mut history = String::from("step,increment,load_factor,iterations,residual");
         for column in columns {
             let _ = write!(history, ",{}", quoted(column));
         }
-        history.push('\n');
+        history.push_str(",energy_balance\n");
         Ok(Writer { folder: folder.into(), name: name.into(), collection: Vec::new(), history })
     }
 
@@ -100,7 +100,7 @@ impl Writer {
         for value in values {
             let _ = write!(self.history, ",{value:e}");
         }
-        self.history.push('\n');
+        let _ = writeln!(self.history, ",{energy_balance:e}");
         files::write_whole(&self.folder.join("history.csv"), self.history.as_bytes())
     }
 
