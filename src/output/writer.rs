@@ -92,11 +92,7 @@ impl Writer {
     /// Adds a row to the history.
     pub fn row(&mut self, row: &Row) -> Result<()> {
         let Row { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
-        let _ = write!(
-            self.history,
-            "{},{increment},{load_factor},{iterations},{residual:e},{energy_balance:e}",
-            quoted(step)
-        );
+        let _ = write!(self.history, "{},{increment},{load_factor},{iterations},{residual:e}", quoted(step));
         for value in values {
             let _ = write!(self.history, ",{value:e}");
         }

@@ -50,6 +50,9 @@ pub(super) struct LinearEngine<'a> {
 /// A solution with a larger backward error is not kept.
 const UNUSABLE: f64 = 1e-6;
 
+/// Most corrections of what the displacements say against the condensed form.
+const DEFECTS: usize = 3;
+
 impl<'a> LinearEngine<'a> {
     pub(super) fn new(system: &'a System<'a>, plan: &'a Plan) -> LinearEngine<'a> {
         LinearEngine { system, plan, factored: None }
@@ -72,8 +75,8 @@ impl Engine for LinearEngine<'_> {
         if solution.backward_error > UNUSABLE {
             return Err(Failure::Unusable(solution.backward_error));
         }
-        let residual = solution.backward_error;
-        Ok(Found { solution, joints: Vec::new(), iterations: 0, residual })
+        let residuals = vec![solution.backward_error];
+        Ok(Found { solution, joints: Vec::new(), iterations: 0, residuals })
     }
 
     fn accept(&mut self) {}
@@ -165,25 +168,36 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     ) -> Result<Found, Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let laws = Laws { problem: self.problem, old: &state.snapshot.states };
-        let target = form.target(force, prescribed);
+        let mut target = form.target(force, prescribed);
         if !target.iter().all(|value| value.is_finite()) {
             return Err(Failure::Unusable(f64::INFINITY));
         }
         let extrapolate = |(now, before): (&f64, &f64)| now + ahead * (now - before);
-        let extrapolated = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
-        let starts = [&self.unknowns, &extrapolated];
-        let iterate =
-            newton.solve(form, &laws, &starts, &target, self.settings).map_err(Failure::Unconverged)?;
-        let solution = form.recover(&iterate.x, &iterate.forces, force, prescribed);
+        let mut start: Vec<f64> = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
+        let (mut residuals, mut passes) = (Vec::new(), 0);
+        let (iterate, solution) = loop {
+            let starts = [&self.unknowns, &start];
+            let iterate = newton.solve(form, &laws, &starts, &target, self.settings);
+            let iterate = iterate.map_err(Failure::Unconverged)?;
+            let solution = form.recover(&iterate.x, &iterate.forces, force, prescribed);
+            residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
+            let defect = form.defect(&iterate.x, &solution.u);
+            let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
+            passes += 1;
+            if defect.is_empty() || left <= self.settings.tolerance || passes > DEFECTS {
+                break (iterate, solution);
+            }
+            target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
+            start = iterate.x;
+        };
         let joints = form.active().iter().zip(iterate.jumps).zip(iterate.memory);
         let joints = joints.map(|((&joint, jumps), memory)| {
             let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
             JointAnswer { joint, jumps, memory }
         });
-        let (joints, iterations) = (joints.collect(), iterate.iterations);
-        let residual = iterate.residuals[iterations];
+        let (joints, iterations) = (joints.collect(), residuals.len() - 1);
         self.found = iterate.x;
-        Ok(Found { solution, joints, iterations, residual })
+        Ok(Found { solution, joints, iterations, residuals })
     }
 
     fn accept(&mut self) {

@@ -4,8 +4,8 @@
 use super::engine::{Engine, Failure, LinearEngine, NewtonEngine, active};
 use super::state::State;
 use super::{Clock, memory};
-use crate::assembly::Joint;
 use crate::error::{Error, Result};
+use crate::law::Law;
 use crate::problem::{Problem, Stage};
 use crate::scene::{Solution, Strategy, Tangent};
 use crate::solver::{Continuum, Plan, Settings, System, TooLarge, Unconverged};
@@ -124,22 +124,19 @@ fn settings(solution: &Solution) -> Settings {
     Settings { tolerance, iterations, initial_tangent: tangent == Tangent::Initial }
 }
 
-/// Law stiffness of a joint's springs: its own if it is elastic, else E/h, which keeps floating bodies in place.
+/// Law stiffness of a joint's springs: its own if it is elastic. Else at most E/h, which keeps floating bodies in place:
+/// E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
 fn springs(problem: &Problem, k: usize) -> Vec<f64> {
     let (joint, (law, _)) = (&problem.model.joints[k], &problem.laws[k]);
-    let [kn, kt] = match law {
-        crate::law::Law::Elastic(_) => law.elastic_stiffness(),
-        _ => [base_stiffness(problem, joint); 2],
-    };
-    [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
-}
-
-/// E/h of the softer body and the mean length of the coarser side's edges.
-fn base_stiffness(problem: &Problem, joint: &Joint) -> f64 {
     let midplane = &joint.coupling.midplane;
     let edges = midplane.a.edges().min(midplane.b.edges());
     let young = joint.bodies.map(|body| problem.model.bodies[body].elasticity.young);
-    young[0].min(young[1]) * edges as f64 / midplane.length
+    let soft = young[0].min(young[1]) * edges as f64 / midplane.length;
+    let [kn, kt] = match law {
+        Law::Elastic(_) => law.elastic_stiffness(),
+        _ => law.elastic_stiffness().map(|stiffness| stiffness.min(soft)),
+    };
+    [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
 }
 
 /// All steps with one engine.

@@ -28,6 +28,8 @@ pub struct State {
     pub reactions: Vec<f64>,
     /// Componentwise backward error of the solution; relative out-of-balance force where joints are not elastic.
     pub residual: f64,
+    /// The residual before every iteration and at the end; of an increment that was divided, those of its last part.
+    pub residuals: Vec<f64>,
     /// Elastic energy of bodies and joints [force × length].
     pub stored: f64,
     /// Energy dissipated by the joints so far [force × length].
@@ -56,7 +58,7 @@ pub(super) struct Found {
     /// Joints that are not elastic.
     pub(super) joints: Vec<JointAnswer>,
     pub(super) iterations: usize,
-    pub(super) residual: f64,
+    pub(super) residuals: Vec<f64>,
 }
 
 impl State {
@@ -71,15 +73,17 @@ impl State {
             ..Snapshot::default()
         };
         let (force, reactions) = (u.clone(), u);
-        let (residual, stored, dissipated, work, largest) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        let mut state = State { snapshot, force, reactions, residual, stored, dissipated, work, largest };
+        let (stored, dissipated, work, largest) = (0.0, 0.0, 0.0, 0.0);
+        let (residual, residuals) = (0.0, vec![0.0]);
+        let mut state =
+            State { snapshot, force, reactions, residual, residuals, stored, dissipated, work, largest };
         state.recover(problem);
         state
     }
 
     /// Takes what converged under external forces `force`.
     pub(super) fn accept(&mut self, problem: &Problem, found: Found, force: Vec<f64>) {
-        let Found { solution: Solution { u, reactions, .. }, joints, residual, .. } = found;
+        let Found { solution: Solution { u, reactions, .. }, joints, residuals, .. } = found;
         self.work += (0..u.len())
             .map(|i| {
                 let mean = 0.5 * (force[i] + reactions[i] + self.force[i] + self.reactions[i]);
@@ -100,7 +104,8 @@ impl State {
             }
             self.snapshot.jumps[joint] = jumps;
         }
-        (self.snapshot.u, self.force, self.reactions, self.residual) = (u, force, reactions, residual);
+        self.residual = residuals[residuals.len() - 1];
+        (self.snapshot.u, self.force, self.reactions, self.residuals) = (u, force, reactions, residuals);
     }
 
     /// Stresses, tractions and stored energy of the displacements and states.

@@ -44,6 +44,6 @@ pub enum Tangent {
 impl Default for Solution {
     fn default() -> Solution {
         let (strategy, tangent) = (Strategy::default(), Tangent::default());
-        Solution { strategy, tolerance: 1e-10, iterations: 25, tangent }
+        Solution { strategy, tolerance: 1e-12, iterations: 25, tangent }
     }
 }

@@ -97,7 +97,7 @@ impl Factored for Base<'_> {
 
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let mut force = vec![0.0; f.len()];
-        self.continuum.stiffness.add_product(&self.continuum.pattern, u, &mut force);
+        self.continuum.stiffness.add_product_by_differences(&self.continuum.pattern, u, &mut force);
         for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
             joint.add_force(&tractions(joint, stiffness, u), &mut force);
         }
@@ -105,7 +105,7 @@ impl Factored for Base<'_> {
     }
 
     fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
-        self.continuum.stiffness.add_absolute_product(&self.continuum.pattern, u, scale);
+        self.continuum.stiffness.add_absolute_product_by_differences(&self.continuum.pattern, u, scale);
         for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
             let mut force = vec![0.0; u.len()];
             joint.add_force(&tractions(joint, stiffness, u), &mut force);

@@ -16,6 +16,11 @@ use super::{Base, Form, Solution};
 use crate::assembly::{Joint, Tangent};
 use crate::coupling::Csr;
 
+/// Rounding of one term of the residual, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Jumps this many times those of the base system have no hold.
+const RUN_AWAY: f64 = 100.0;
+
 /// The condensed form under one set of supports.
 #[derive(Debug)]
 pub struct Dual<'a> {
@@ -98,6 +103,27 @@ impl Form for Dual<'_> {
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }
 
+    /// Every term of the residual to the precision of numbers. Where nothing holds the joint, jumps run away: those are no
+    /// reason to be content with less.
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[Tangent]) -> f64 {
+        let far = RUN_AWAY * target.iter().map(|a| a.abs()).fold(0.0, f64::max);
+        let absolute = |v: &[f64]| v.iter().map(|v| v.abs().min(far)).collect::<Vec<f64>>();
+        let sizes: Vec<Vec<f64>> = (0..self.active.len())
+            .map(|k| {
+                let spring = self.springs[k].multiply(&absolute(self.part(k, x)));
+                spring.iter().zip(&forces[k]).map(|(spring, q)| spring.abs() + q.abs()).collect()
+            })
+            .collect();
+        let sizes = sizes.concat();
+        let misfit: Vec<f64> = (0..x.len())
+            .map(|i| {
+                let moved = (0..x.len()).map(|j| self.flexibility[(i, j)].abs() * sizes[j]).sum::<f64>();
+                ROUNDING * (moved + x[i].abs().min(far) + target[i].abs())
+            })
+            .collect();
+        self.error(&misfit, x, forces, target)
+    }
+
     fn factor(&mut self, tangents: &[Tangent]) -> bool {
         let same = |(old, new): (&Vec<f64>, &Tangent)| *old == new.matrix.values;
         if self.jacobian.is_some() && self.factored.iter().zip(tangents).all(same) {
@@ -126,6 +152,12 @@ impl Form for Dual<'_> {
         if let Some(jacobian) = &self.jacobian {
             jacobian.solve(b);
         }
+    }
+
+    /// a − G u: F₀ carries the rounding of the condensation, which stiff bodies on soft joints magnify; u does not.
+    fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64> {
+        let moved = self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(u));
+        x.iter().zip(moved).map(|(a, moved)| a - moved).collect()
     }
 
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {

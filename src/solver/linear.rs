@@ -61,7 +61,7 @@ impl Factored for Linear<'_> {
     /// f − K u − Σ Gᵀ q, the joints by their jumps, so that what cancels does so before it is multiplied by K_N.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let mut force = vec![0.0; f.len()];
-        self.system.continuum.add_product(self.system.pattern, u, &mut force);
+        self.system.continuum.add_product_by_differences(self.system.pattern, u, &mut force);
         for (joint, stiffness) in self.system.joints.iter().zip(self.system.stiffness) {
             joint.add_force(&tractions(joint, stiffness, u), &mut force);
         }

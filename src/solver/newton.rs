@@ -16,6 +16,10 @@ const CHUNK: usize = 32;
 const HALVINGS: usize = 10;
 /// Part of the linear prediction by which a step must reduce the residual.
 const SUFFICIENT: f64 = 1e-4;
+/// An iteration that leaves more than this part of the residual has reached the rounding, if it is near.
+const STALLED: f64 = 0.5;
+/// What rounding leaves is not taken for a solution above this.
+const UNUSABLE: f64 = 1e-6;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
 
@@ -53,10 +57,14 @@ pub trait Form {
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
+    /// What rounding alone may leave of the residual, measured like `error`.
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64;
     /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
     fn factor(&mut self, tangents: &[Tangent]) -> bool;
     /// J⁻¹ b in place.
     fn solve(&self, b: &mut [f64]);
+    /// What the displacements of a solution say the residual still is; empty where it is known exactly.
+    fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64>;
     /// Displacements and reactions of a solution.
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution;
 }
@@ -149,7 +157,10 @@ impl Newton {
         };
         let mut residuals = vec![now.error];
         for iterations in 0..=settings.iterations {
-            if now.error <= settings.tolerance {
+            // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
+            let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
+            let rounded = || form.rounding(&x, &now.forces, target, &self.tangents).min(UNUSABLE);
+            if iterations > 0 && (now.error <= settings.tolerance || stalled && now.error <= rounded()) {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
                 return Ok(Iterate { x, jumps, tractions, forces, memory, iterations, residuals });
             }
@@ -158,7 +169,8 @@ impl Newton {
             }
             let mut correction = self.correction(form, laws, &now, settings, iterations)?;
             correction.iter_mut().for_each(|value| *value = -*value);
-            let Some((next, there)) = search(form, laws, &x, &correction, target, now.error) else {
+            let error = now.error.max(settings.tolerance); // below that rounding decides
+            let Some((next, there)) = search(form, laws, &x, &correction, target, error) else {
                 return Err(unconverged(
                     form,
                     "the laws have no answer along the correction",

@@ -16,6 +16,9 @@ use super::linear::tractions;
 use super::{Form, Solution};
 use crate::assembly::{Joint, Pattern, Symmetric, Tangent};
 
+/// Rounding of one term of the residual, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// The plain form under one set of supports.
 #[derive(Debug)]
 pub struct Plain<'a> {
@@ -55,7 +58,7 @@ impl<'a> Plain<'a> {
     /// K u + Gᵀ q of all joints.
     fn internal(&self, u: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
         let mut internal = vec![0.0; u.len()];
-        self.continuum.add_product(self.pattern, u, &mut internal);
+        self.continuum.add_product_by_differences(self.pattern, u, &mut internal);
         self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut internal));
         for k in self.passive() {
             self.joints[k].add_force(&tractions(&self.joints[k], &self.stiffness[k], u), &mut internal);
@@ -101,6 +104,29 @@ impl Form for Plain<'_> {
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }
 
+    /// Jumps are differences of displacements: their rounding is that of the displacements, times the stiffness.
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64 {
+        let mut sizes: Vec<f64> = target.iter().map(|b| b.abs()).collect();
+        self.continuum.add_absolute_product(self.pattern, x, &mut sizes);
+        let mut squares = sizes.iter().map(|size| size * size).sum::<f64>();
+        for (&k, tangent) in self.active.iter().zip(tangents) {
+            let joint = &self.joints[k];
+            let sum = |i: usize| {
+                let (dofs, values) = joint.row(i);
+                dofs.iter().zip(values).map(|(&dof, value)| (value * x[dof]).abs()).sum::<f64>()
+            };
+            let jumps: Vec<f64> = (0..joint.size()).map(sum).collect();
+            for i in 0..joint.size() {
+                let (columns, values) = tangent.matrix.row(i);
+                let force = columns.iter().zip(values).map(|(&j, value)| value.abs() * jumps[j]).sum::<f64>();
+                squares += force * force;
+            }
+        }
+        let one = vec![1.0; x.len()];
+        let per_force = self.error(&one, x, forces, target) / (x.len() as f64).sqrt();
+        ROUNDING * squares.sqrt() * per_force
+    }
+
     fn factor(&mut self, tangents: &[Tangent]) -> bool {
         let n = self.pattern.size();
         let mut triplets = Vec::new();
@@ -142,6 +168,10 @@ impl Form for Plain<'_> {
         if let Some(factor) = &self.factor {
             factor.solve_in_place(column_mut(b));
         }
+    }
+
+    fn defect(&self, _: &[f64], _: &[f64]) -> Vec<f64> {
+        Vec::new()
     }
 
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {

@@ -126,6 +126,30 @@ pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
     Problem::bind(&scene, meshes)
 }
 
+/// What a march gave: the places and states after its increments, and how it ended.
+pub struct March {
+    pub iterations: Vec<usize>,
+    pub load_factors: Vec<f64>,
+    pub states: Vec<State>,
+    pub end: midplane::error::Result<Totals>,
+}
+
+/// Marches through a scene, to its end or not.
+pub fn try_solve(problem: &Problem) -> March {
+    let (mut iterations, mut load_factors, mut states) = (Vec::new(), Vec::new(), Vec::new());
+    let mut clock = Clock::new("test");
+    let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
+        if place.number > 0 {
+            iterations.push(place.iterations);
+            load_factors.push(place.load_factor);
+            states.push(state.clone());
+        }
+        Ok(())
+    };
+    let end = march(problem, &mut clock, &mut |_| (), &mut visit);
+    March { iterations, load_factors, states, end }
+}
+
 /// All states of a scene after its increments, and the counts.
 pub fn solve(problem: &Problem) -> (Vec<State>, Totals) {
     let mut states = Vec::new();

@@ -1,0 +1,110 @@
+//! Claim: the paper's Example 2 is uniform. Two layers are pressed together, then the nodes of the upper side of the joint
+//! are moved along those of the lower side, which are held: every law point carries the curve of one point, and the bodies
+//! carry the pressure alone, whatever the meshes, the elements and the coupling.
+//!
+//! The paper prints 0.2 and 2 MPa·m, with which nothing softens within a millimetre (reading A); N/mm (reading B) is taken
+//! by the scene. τ at the peak and after 1 mm from the closed form: du = dW / (τ − |σ| t₀) behind the peak
+//! √((c₀ − σ t₀)² − (c₀ − χ₀ t₀)²).
+
+mod common;
+
+use common::*;
+use midplane::law::{Law, State as LawState, Stepping};
+use midplane::shape::Shape;
+use nalgebra::Vector2;
+
+const K: f64 = 1e7;
+const SLIP: f64 = 1e-3;
+const INCREMENTS: usize = 50;
+
+fn scene(sigma: f64, scale: f64, coupling: &str, strategy: &str, tolerance: f64) -> String {
+    let (gi, gii) = (0.2 * scale, 2.0 * scale);
+    format!(
+        r#"{{"plane": "strain",
+        "subdomains": {{"lower": {{"msh": "a", "material": "rock"}}, "upper": {{"msh": "b", "material": "rock"}}}},
+        "materials": {{"rock": {{"young": 1e4, "poisson": 0}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "coupling": "{coupling}",
+            "law_tolerance": {tolerance}, "law": {{"type": "cracking", "normal_stiffness": {K}, "tangential_stiffness": {K},
+            "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {gi},
+            "fracture_energy_iia": {gii}, "dilatancy_stress": 0}}}}}},
+        "solution": {{"strategy": "{strategy}"}},
+        "steps": [
+            {{"name": "compression", "fix": {{"lower.bottom": ["y"], "lower.corner": ["x"]}},
+              "load": {{"upper.top": {{"pressure": {}}}}}}},
+            {{"name": "shear", "increments": {INCREMENTS},
+              "displace": {{"upper.bottom": {{"x": {SLIP}}}, "lower.top": {{"x": 0}}}}}}]}}"#,
+        -sigma
+    )
+}
+
+fn layers(shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
+    let layer = |n: usize, y: f64| rectangle(&even(0.0, 0.2, n), &even(y, y + 0.1, 2), shape, |x, y| [x, y]);
+    vec![layer(pair.0, -0.1), layer(pair.1, 0.0)]
+}
+
+/// Tractions of one point that follows the same jumps.
+fn point_curve(law: &Law, sigma: f64, tolerance: f64) -> Vec<Vector2<f64>> {
+    let mut state = LawState::default();
+    let slips = (0..=INCREMENTS).map(|i| SLIP * i as f64 / INCREMENTS as f64);
+    slips
+        .map(|slip| {
+            let jump = Vector2::new(sigma / K, slip); // no dilatancy: σ stays
+            state = law.respond(jump, &state, Stepping::Tolerance(tolerance)).unwrap().state;
+            state.traction
+        })
+        .collect()
+}
+
+#[test]
+fn every_law_point_carries_the_curve_of_one() {
+    let sigma = -5.0;
+    for shape in [Shape::Triangle3, Shape::Quadrilateral4, Shape::Quadrilateral8] {
+        for pair in [(5, 8), (7, 12), (9, 9)] {
+            for (coupling, strategy) in
+                [("projected", "condensed"), ("pointwise", "condensed"), ("projected", "plain")]
+            {
+                let what = format!("{shape:?} {pair:?} {coupling} {strategy}");
+                let problem =
+                    bind(&scene(sigma, 1e-3, coupling, strategy, 1e-4), layers(shape, pair)).unwrap();
+                let curve = point_curve(&problem.laws[0].0, sigma, 1e-4);
+                let march = try_solve(&problem);
+                let totals = march.end.unwrap();
+                assert_eq!(march.states.len(), INCREMENTS + 1, "{what}");
+                assert_eq!(totals.factorisations, if strategy == "plain" { 2 } else { 1 }, "{what}");
+                assert!(totals.energy_balance < 1e-8, "{what}: {:e}", totals.energy_balance);
+                // the free problem is linear: one iteration finds it
+                assert!(march.iterations.iter().all(|&n| n == 1), "{what}: {:?}", march.iterations);
+                let peak = curve.iter().map(|t| t.y).fold(0.0, f64::max);
+                for (state, exact) in march.states.iter().zip(&curve) {
+                    for [n, t] in &state.snapshot.tractions[0] {
+                        close(*n, exact.x, 1e-8, sigma, &what);
+                        close(*t, exact.y, 1e-8, peak, &what);
+                    }
+                    for cell in state.snapshot.stresses.iter().flat_map(|stresses| &stresses.cells) {
+                        for (got, exact) in cell.iter().zip([0.0, sigma, 0.0, 0.0]) {
+                            close(*got, exact, 1e-8, sigma, &what);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn both_readings_of_the_energies_end_where_the_closed_form_does() {
+    // σ, τ after 1 mm with energies in MPa·m, in N/mm
+    for (sigma, as_printed, newton_per_mm) in
+        [(-1.0, 4.66330681, 1.70566019), (-5.0, 8.26570796, 5.06373649), (-20.0, 21.51605658, 18.15232515)]
+    {
+        for (scale, exact) in [(1.0, as_printed), (1e-3, newton_per_mm)] {
+            let text = scene(sigma, scale, "projected", "auto", 1e-8);
+            let problem = bind(&text, layers(Shape::Quadrilateral4, (5, 8))).unwrap();
+            let (states, _) = solve(&problem);
+            for [n, t] in &states[INCREMENTS].snapshot.tractions[0] {
+                close(*t, exact, 1e-7, exact, &format!("σ = {sigma}, energies times {scale}"));
+                close(*n, sigma, 1e-9, sigma, "σ");
+            }
+        }
+    }
+}

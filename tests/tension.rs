@@ -1,0 +1,156 @@
+//! Claim: two bars in series with a cohesive joint follow the exact path under tension (stable branch, and jump where it
+//! snaps back), and the work done until they part is the fracture energy.
+//!
+//! ```text
+//! u(σ) = σ (L/E + 1/K_N) − (G_I/χ₀) ln(σ/χ₀)     W = G_I (1 − σ/χ₀)     snap-back if (L/E + 1/K_N) χ₀² / G_I > 1
+//! ```
+
+mod common;
+#[path = "common/table.rs"]
+mod table;
+
+use common::*;
+use midplane::error::Error;
+use midplane::shape::Shape;
+use table::Table;
+
+const E: f64 = 1e4;
+const KN: f64 = 1e6;
+const CHI: f64 = 3.0;
+const GI: f64 = 2e-4;
+const WIDTH: f64 = 0.02;
+
+/// Two bars, the upper end pulled by `end`.
+fn scene(end: f64, increments: usize, coupling: &str, more: &str) -> String {
+    format!(
+        r#"{{"plane": "stress",
+        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+        "materials": {{"m": {{"young": {E}, "poisson": 0}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "coupling": "{coupling}",
+            "law_tolerance": 1e-9, "law": {{"type": "cracking", "normal_stiffness": {KN}, "tangential_stiffness": {KN},
+            "tensile_strength": {CHI}, "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {GI},
+            "fracture_energy_iia": 2e-3, "dilatancy_stress": 0}}}}}},
+        {more}
+        "steps": [{{"name": "pull", "increments": {increments},
+            "fix": {{"lower.bottom": ["y"], "lower.corner": ["x"], "upper.corner": ["x"]}},
+            "displace": {{"upper.top": {{"y": {end}}}}}}}]}}"#
+    )
+}
+
+fn bars(length: f64, shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
+    let bar = |n: usize, y: f64| {
+        rectangle(&even(0.0, WIDTH, n), &even(y, y + length / 2.0, 3), shape, |x, y| [x, y])
+    };
+    vec![bar(pair.0, -length / 2.0), bar(pair.1, 0.0)]
+}
+
+/// End displacement at a stress behind the peak.
+fn exact(length: f64, s: f64) -> f64 {
+    s * (length / E + 1.0 / KN) - GI / CHI * (s / CHI).ln()
+}
+
+#[test]
+fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
+    let (length, end) = (0.05, 6e-4);
+    let peak = CHI * (length / E + 1.0 / KN);
+    for (shape, pair, coupling) in [
+        (Shape::Quadrilateral4, (1, 1), "projected"),
+        (Shape::Quadrilateral4, (3, 2), "projected"),
+        (Shape::Quadrilateral4, (3, 2), "pointwise"),
+        (Shape::Triangle3, (3, 2), "projected"),
+        (Shape::Quadrilateral8, (1, 1), "projected"),
+    ] {
+        let what = format!("{shape:?} {pair:?} {coupling}");
+        let problem = bind(&scene(end, 60, coupling, ""), bars(length, shape, pair)).unwrap();
+        let (states, totals) = solve(&problem);
+        assert!(totals.energy_balance < 1e-8, "{what}: balance {:e}", totals.energy_balance);
+        let mut cracked = 0;
+        for (i, state) in states.iter().enumerate() {
+            let u = end * (i + 1) as f64 / states.len() as f64;
+            for [s, t] in &state.snapshot.tractions[0] {
+                let on_path = if u <= peak { u / peak * CHI } else { *s };
+                close(*s, on_path, 1e-9, CHI, &what);
+                if u > peak {
+                    close(u, exact(length, *s), 1e-6, peak, &what);
+                    cracked += 1;
+                }
+                close(*t, 0.0, 1e-9, CHI, &what);
+            }
+        }
+        assert!(cracked > 50);
+        // W = G_I (1 − σ/χ₀) is spent, the rest of the work is stored
+        let last = &states[states.len() - 1];
+        let s = last.snapshot.tractions[0][0][0];
+        assert!(s < 0.01 * CHI);
+        close(last.dissipated / WIDTH, GI * (1.0 - s / CHI), 1e-6, GI, &what);
+        close(last.work / WIDTH, GI * (1.0 - s / CHI) + 0.5 * s * s * peak / CHI, 1e-6, GI, &what);
+    }
+}
+
+/// Residuals of the increment with the most iterations.
+fn hardest(states: &[midplane::run::State]) -> &[f64] {
+    let hardest = states.iter().max_by_key(|state| state.residuals.len()).unwrap();
+    &hardest.residuals
+}
+
+/// Order of convergence from the last residuals above rounding.
+fn order(residuals: &[f64]) -> f64 {
+    let above: Vec<f64> = residuals.iter().copied().take_while(|&r| r > 1e-13).collect();
+    let [.., a, b, c] = above[..] else { return f64::NAN };
+    (c / b).ln() / (b / a).ln()
+}
+
+#[test]
+fn newton_converges_quadratically_with_the_consistent_tangent_only() {
+    let mut table = Table::new(
+        "newton_tension",
+        "Newton's method: a cracking joint under tension",
+        "Relative residual before every iteration of the hardest of 12 increments; order from the last three above 1e-13.",
+        &["form", "tangent", "residuals", "order"],
+    );
+    for strategy in ["condensed", "plain"] {
+        for tangent in ["consistent", "initial"] {
+            let more = format!(
+                r#""solution": {{"strategy": "{strategy}", "tangent": "{tangent}", "iterations": 400, "tolerance": 1e-12}},"#
+            );
+            let text = scene(6e-4, 12, "projected", &more).replace("1e-9", "1e-4");
+            let problem = bind(&text, bars(0.05, Shape::Quadrilateral4, (3, 2))).unwrap();
+            let (states, _) = solve(&problem);
+            let residuals = hardest(&states);
+            let order = order(residuals);
+            let shown: Vec<String> = residuals.iter().take(9).map(|r| format!("{r:.0e}")).collect();
+            let more =
+                if residuals.len() > 9 { format!(" … {} in all", residuals.len()) } else { String::new() };
+            table.row(&[strategy.into(), tangent.into(), shown.join(" ") + &more, format!("{order:.2}")]);
+            if tangent == "consistent" {
+                assert!(order > 1.8, "{strategy}: {residuals:?}");
+                assert!(residuals.len() <= 9, "{strategy}: {residuals:?}");
+            } else {
+                assert!(order < 1.2 && residuals.len() > 20, "{strategy}: {residuals:?}");
+            }
+        }
+    }
+    table.finish();
+}
+
+#[test]
+fn a_bar_that_snaps_back_jumps_to_the_end_of_the_jump_or_stops() {
+    let length = 1.0;
+    let peak = CHI * (length / E + 1.0 / KN);
+    // the listed stress after the jump at the peak's displacement
+    let below = 0.03352028576;
+    close(exact(length, below), peak, 1e-9, peak, "listed");
+    let text = scene(1.2 * peak, 12, "projected", "");
+    let problem = bind(&text, bars(length, Shape::Quadrilateral4, (1, 1))).unwrap();
+    let march = try_solve(&problem);
+    for (state, load) in march.states.iter().zip(&march.load_factors) {
+        let (u, s) = (1.2 * peak * load, state.snapshot.tractions[0][0][0]);
+        let exact_u = if u <= peak * (1.0 + 1e-9) { s / CHI * peak } else { exact(length, s) };
+        close(u, exact_u, 1e-6, peak, "on the path");
+    }
+    match march.end {
+        Ok(_) => assert!(march.states[11].snapshot.tractions[0][0][0] < below),
+        Err(Error::NoEquilibrium { .. }) => assert!(march.states.len() >= 10),
+        Err(other) => panic!("{other}"),
+    }
+}
