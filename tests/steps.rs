@@ -1,0 +1,180 @@
+//! Claim: supports come and go between steps without a trace of their own; an increment that is rejected leaves none; a
+//! scene pays for what it uses.
+
+mod common;
+
+use common::*;
+use midplane::mesh::Mesh;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+fn scene(law: &str, steps: &str, more: &str) -> String {
+    format!(
+        r#"{{"plane": "strain",
+        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+        "materials": {{"m": {{"young": 1e4, "poisson": 0.2}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom",
+            "law": {{"normal_stiffness": 1e6, "tangential_stiffness": 1e6, {law}}}}}}},
+        {more}
+        "steps": [{steps}],
+        "output": {{"history": {{"x": "upper.top.displacement_x", "n": "joint.traction_n@0.5"}}}}}}"#
+    )
+}
+
+const ELASTIC: &str = r#""type": "elastic""#;
+const COULOMB: &str = r#""type": "coulomb", "friction_coefficient": 0.5"#;
+const CRACKING: &str = r#""type": "cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,
+    "fracture_energy_i": 2e-4, "fracture_energy_iia": 2e-3, "dilatancy_stress": 0"#;
+
+fn blocks() -> Vec<Mesh> {
+    let block = |n: usize, y: f64| {
+        rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    vec![block(3, -0.2), block(4, 0.0)]
+}
+
+fn problem(law: &str, steps: &str) -> Problem {
+    bind(&scene(law, steps, ""), blocks()).unwrap()
+}
+
+const PRESS: &str =
+    r#"{"name": "press", "fix": {"lower.bottom": ["x", "y"]}, "load": {"upper.top": {"pressure": 2}}}"#;
+
+#[test]
+fn a_held_group_stays_and_a_released_one_gives_back_its_reaction() {
+    // pushed by a load, held there, the load taken away, released: with elastic joints back where it came from
+    let steps = [
+        PRESS,
+        r#"{"name": "push", "increments": 2, "load": {"upper.left": {"traction": [0.5, 0]}}}"#,
+        r#"{"name": "hold", "increments": 2, "hold": {"upper.top": ["x"]}, "load": {"upper.left": {"traction": [0, 0]}}}"#,
+        r#"{"name": "release", "increments": 4, "release": {"upper.top": ["x"]}}"#,
+    ]
+    .join(",");
+    for law in [ELASTIC, CRACKING] {
+        let problem = problem(law, &steps);
+        let (states, totals) = solve(&problem);
+        let at = |i: usize| states[i].probes(&problem)[0];
+        let top: Vec<usize> = problem.reactions.iter().find(|r| r.group == "upper.top").unwrap().dofs.clone();
+        let reaction = |i: usize| top.iter().map(|&dof| states[i].reactions[dof]).sum::<f64>();
+        assert!(at(2) > 1e-6);
+        for i in [3, 4] {
+            for &dof in &top {
+                assert_eq!(states[i].snapshot.u[dof], states[2].snapshot.u[dof], "{law}: held");
+            }
+        }
+        // the support takes over what the load gave
+        assert!(reaction(4) > 0.05);
+        for (i, left) in [(5, 0.75), (6, 0.5), (7, 0.25), (8, 0.0)] {
+            close(reaction(i), left * reaction(4), 1e-12, reaction(4), law);
+        }
+        for (free, first) in states[8].snapshot.u.iter().zip(&states[0].snapshot.u) {
+            close(*free, *first, 1e-9, at(2), law);
+        }
+        assert!(totals.energy_balance < 1e-8, "{law}: {:e}", totals.energy_balance);
+        // all the work of the push has been given back
+        close(states[8].work, states[0].work, 1e-9, states[2].work, law);
+    }
+}
+
+#[test]
+fn what_holds_nothing_or_twice_is_refused() {
+    for (step, expected) in [
+        (r#""release": {"upper.top": ["x"]}"#, "nothing holds \"upper.top\" in x"),
+        (
+            r#""hold": {"upper.top": ["x"]}, "fix": {"upper.right": ["x"]}"#,
+            "meets the prescribed \"upper.right\"",
+        ),
+        (r#""hold": {"lower.bottom": ["x"]}, "release": {"lower.bottom": ["x"]}"#, "meets hold lower.bottom"),
+        (r#""release": {"lower.bottom": ["x"]}"#, "lower"), // then nothing holds the body
+    ] {
+        let text = scene(ELASTIC, &format!(r#"{PRESS}, {{"name": "next", {step}}}"#), "");
+        let error = bind(&text, blocks()).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn increments_that_were_cut_leave_no_trace() {
+    // a path of many increments, and the same through one that must be cut: allowed two iterations only
+    let steps = |n: usize| {
+        format!(
+            r#"{PRESS}, {{"name": "shear", "increments": {n}, "displace": {{"upper.left": {{"x": 4e-4}}, "upper.right": {{"x": 4e-4}}}}}}"#
+        )
+    };
+    let cut = scene(COULOMB, &steps(1), r#""solution": {"iterations": 2},"#);
+    let cut = try_solve(&bind(&cut, blocks()).unwrap());
+    let totals = cut.end.unwrap();
+    assert!(totals.halved > 0, "nothing was cut");
+    assert!(totals.energy_balance < 1e-8);
+    assert_eq!(cut.states.len(), 2, "one row per increment of the scene");
+    let (fine, _) = solve(&problem(COULOMB, &steps(256)));
+    let (a, b) = (&cut.states[1], &fine[256]);
+    let largest = b.snapshot.tractions[0].as_flattened().iter().map(|t| t.abs()).fold(0.0, f64::max);
+    for (a, b) in a.snapshot.tractions[0].as_flattened().iter().zip(b.snapshot.tractions[0].as_flattened()) {
+        close(*a, *b, 2e-2, largest, "cut and fine");
+    }
+}
+
+#[test]
+fn an_elastic_scene_has_no_history_and_no_iteration() {
+    let push = r#"{"name": "push", "increments": 5, "load": {"upper.left": {"traction": [0.5, 0]}}}"#;
+    let steps = format!("{PRESS}, {push}");
+    let elastic = problem(ELASTIC, &steps);
+    let (linear, totals) = solve(&elastic);
+    assert!(elastic.states[0].is_empty() && linear[5].snapshot.states[0].is_empty());
+    assert_eq!((totals.factorisations, totals.iterations, totals.halved), (1, 0, 0));
+    // below its surface the cracking law gives the same, with one iteration an increment
+    let below = problem(CRACKING, &steps);
+    let march = try_solve(&below);
+    assert_eq!(march.end.unwrap().factorisations, 1);
+    assert_eq!(march.iterations, [1; 6]);
+    for (a, b) in linear.iter().zip(&march.states) {
+        let largest = a.snapshot.u.iter().map(|u| u.abs()).fold(0.0, f64::max);
+        a.snapshot.u.iter().zip(&b.snapshot.u).for_each(|(a, b)| close(*b, *a, 1e-11, largest, "u"));
+        let (a, b) = (a.snapshot.tractions[0].as_flattened(), b.snapshot.tractions[0].as_flattened());
+        a.iter().zip(b).for_each(|(a, b)| close(*b, *a, 1e-10, 2.0, "traction"));
+    }
+}
+
+#[test]
+fn units_change_nothing_but_the_numbers() {
+    // MPa and m, Pa and m, N/mm² and mm: (stress, length)
+    let run = |stress: f64, length: f64| {
+        let block = |n: usize, y: f64| {
+            rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral4, |x, y| {
+                [x * length, y * length]
+            })
+        };
+        let (k, slip) = (1e6 * stress / length, 4e-4 * length);
+        let text = format!(
+            r#"{{"plane": "strain", "thickness": {length},
+            "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+            "materials": {{"m": {{"young": {}, "poisson": 0.2}}}},
+            "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "law": {{"type": "cracking",
+                "normal_stiffness": {k}, "tangential_stiffness": {k}, "tensile_strength": {}, "cohesion": {},
+                "tan_friction": 0.8785, "fracture_energy_i": {}, "fracture_energy_iia": {}, "dilatancy_stress": 0}}}}}},
+            "steps": [
+                {{"name": "press", "fix": {{"lower.bottom": ["x", "y"]}}, "load": {{"upper.top": {{"pressure": {}}}}}}},
+                {{"name": "shear", "increments": 8, "displace": {{"upper.left": {{"x": {slip}}}, "upper.right": {{"x": {slip}}}}}}}]}}"#,
+            1e4 * stress,
+            3.0 * stress,
+            4.0 * stress,
+            2e-4 * stress * length,
+            2e-3 * stress * length,
+            2.0 * stress
+        );
+        try_solve(&bind(&text, vec![block(3, -0.2), block(4, 0.0)]).unwrap())
+    };
+    let one = run(1.0, 1.0);
+    for (stress, length) in [(1e6, 1.0), (1.0, 1e3)] {
+        let other = run(stress, length);
+        assert_eq!(one.iterations, other.iterations);
+        for (a, b) in one.states.iter().zip(&other.states) {
+            let largest = a.snapshot.u.iter().map(|u| u.abs()).fold(0.0, f64::max);
+            let u = a.snapshot.u.iter().zip(&b.snapshot.u);
+            u.for_each(|(a, b)| close(b / length, *a, 1e-12, largest, "u"));
+            let (a, b) = (a.snapshot.tractions[0].as_flattened(), b.snapshot.tractions[0].as_flattened());
+            a.iter().zip(b).for_each(|(a, b)| close(b / stress, *a, 1e-9, 2.0, "traction"));
+        }
+    }
+}
