@@ -43,6 +43,8 @@ pub struct Problem {
     pub solution: scene::Solution,
     /// Supports and loads step by step.
     pub stages: Vec<Stage>,
+    /// Which increments store their fields.
+    pub fields: scene::Fields,
     /// Columns of the history: name and probe.
     pub probes: Vec<(String, BoundProbe)>,
     /// Groups that hold something, for their reactions.
@@ -77,8 +79,8 @@ impl Problem {
             rigid::refuse_free_bodies(&model, &laws, stage)?;
         }
         let probes = probes::bind(scene, &model)?;
-        let solution = scene.solution;
-        Ok(Problem { model, laws, states, stepping, solution, stages, probes, reactions, warnings })
+        let (solution, fields) = (scene.solution, scene.output.fields);
+        Ok(Problem { model, laws, states, stepping, solution, fields, stages, probes, reactions, warnings })
     }
 }
 

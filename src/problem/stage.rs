@@ -74,9 +74,14 @@ impl Stage {
         Ok(u)
     }
 
+    /// True if a formula in load_factor makes loads or displacements anything but a ramp.
+    pub fn follows_load_factor(&self) -> bool {
+        !(self.changing.is_empty() && self.moving.is_empty())
+    }
+
     /// Asks every formula in load_factor at every increment, so that none fails half-way.
     pub(super) fn check(&self, model: &Model) -> Result<()> {
-        if self.changing.is_empty() && self.moving.is_empty() {
+        if !self.follows_load_factor() {
             return Ok(());
         }
         let mut unused = vec![0.0; model.dofs()];

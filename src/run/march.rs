@@ -1,13 +1,15 @@
 //! The march through the load history. A linear scene takes one factorisation per set of supports and one solve per
 //! increment; any other iterates, and divides an increment that finds no equilibrium.
 
-use super::engine::{Engine, Failure, LinearEngine, NewtonEngine, active};
+use super::engine::{Engine, Failure, LinearEngine};
+use super::loading::Start;
+use super::newton::{NewtonEngine, active};
 use super::state::State;
 use super::{Clock, memory};
 use crate::error::{Error, Result};
 use crate::law::Law;
 use crate::problem::{Problem, Stage};
-use crate::scene::{Solution, Strategy, Tangent};
+use crate::scene::{Fields, Solution, Strategy, Tangent};
 use crate::solver::{Continuum, Plan, Settings, System, TooLarge, Unconverged};
 
 /// An increment is halved at most this many times.
@@ -148,7 +150,7 @@ fn steps(
     begin: &mut dyn FnMut(&mut Clock, &'static str),
     visit: Visit,
 ) -> Result<Totals> {
-    let initial = initial_force(problem);
+    let (model, initial) = (&problem.model, initial_force(problem));
     let mut state = State::unloaded(problem);
     for (step, stage) in problem.stages.iter().enumerate() {
         begin(clock, "factor");
@@ -158,7 +160,17 @@ fn steps(
             let place = Place { step, stage, number: 0, increment: 0, load_factor: 0.0, iterations: 0 };
             visit(place, &state, &totals, clock)?;
         }
-        let start = Start { u: state.snapshot.u.clone(), reactions: state.reactions.clone() };
+        let start = Start::new(problem, stage, &initial, &state.snapshot.u, &state.reactions);
+        let ramp = start.ramp()?;
+        // increments whose fields are not stored do without displacements where no joint needs them and it pays: a
+        // measure costs about as much as recovering one increment
+        let unstored = problem.fields != Fields::Every && active(problem).len() == model.joints.len();
+        let measures = ramp.as_ref().filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
+        let thrifty = !measures.is_empty() && measures.len() < stage.increments;
+        let measures = if thrifty { measures } else { Vec::new() };
+        begin(clock, "prepare");
+        engine.prepare(ramp.as_ref(), &measures);
+        state.open(ramp.filter(|_| thrifty).map(|ramp| start.ledger(&ramp)));
         let (mut level, mut width, mut last) = (0.0, 1.0 / stage.increments as f64, f64::INFINITY);
         for number in 1..=stage.increments {
             let goal = number as f64 / stage.increments as f64;
@@ -167,23 +179,16 @@ fn steps(
             while level < goal {
                 begin(clock, "solve");
                 let reached = if level + 1.001 * width >= goal { goal } else { level + width };
-                let (force, prescribed, released) = start.at(problem, stage, reached)?;
-                let loaded: Vec<f64> =
-                    force.iter().zip(&released).zip(&initial).map(|((f, r), f0)| f + r - f0).collect();
-                match engine.solve(&state, &loaded, &prescribed, (reached - level) / last) {
-                    Ok(mut found) => {
+                let load = start.at(reached)?;
+                let complete = !thrifty || number == stage.increments;
+                match engine.solve(&state, &load, (reached - level) / last, complete) {
+                    Ok(found) => {
                         engine.accept();
-                        found
-                            .solution
-                            .reactions
-                            .iter_mut()
-                            .zip(&released)
-                            .for_each(|(r, released)| *r += released);
                         iterations += found.iterations;
                         if found.iterations <= EASY {
                             width = (2.0 * width).min(1.0 / stage.increments as f64);
                         }
-                        state.accept(problem, found, force);
+                        state.accept(problem, found, load);
                         (last, level) = (reached - level, reached);
                     }
                     Err(Failure::Unusable(error)) => {
@@ -222,21 +227,6 @@ fn steps(
     }
     clock.begin("end");
     Ok(totals)
-}
-
-/// What a step starts from.
-struct Start {
-    u: Vec<f64>,
-    reactions: Vec<f64>,
-}
-
-impl Start {
-    /// External forces, prescribed displacements, and what is left of released reactions, at a load level.
-    fn at(&self, problem: &Problem, stage: &Stage, level: f64) -> Result<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-        let mut released = vec![0.0; self.u.len()];
-        stage.released.iter().for_each(|&dof| released[dof] = (1.0 - level) * self.reactions[dof]);
-        Ok((stage.force(&problem.model, level)?, stage.prescribed(&self.u, level)?, released))
-    }
 }
 
 /// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic joints (paper eq. 12); other laws know theirs.

@@ -5,8 +5,10 @@
 mod clock;
 mod engine;
 mod folder;
+mod loading;
 mod march;
 pub mod memory;
+mod newton;
 pub mod point;
 mod prepare;
 mod state;
@@ -130,7 +132,9 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
             values: state.probes(&problem),
         };
         writer.row(&row)?;
-        balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+        if !state.force.is_empty() {
+            balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+        }
         let of = place.stage.increments;
         (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total });
         Ok(())

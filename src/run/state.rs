@@ -10,21 +10,24 @@
 //! increments. It is exact where displacements are prescribed, and the balance closes if, and only if, both ends of the
 //! increment are in equilibrium and nothing is forgotten.
 
+use super::loading::{Ledger, Load};
 use crate::assembly::Model;
 use crate::continuum::{Stresses, recover};
+use crate::coupling::LawPoint;
 use crate::law::{self, Law};
 use crate::output::Snapshot;
-use crate::problem::{ProbeInput, Problem};
+use crate::problem::{BoundProbe, ProbeInput, Problem};
 use crate::solver::Solution;
 
 /// The model after an increment.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Displacements, stresses, jumps, tractions.
+    /// Jumps, tractions and states of the joints; displacements and stresses of the bodies where fields are stored, else
+    /// none.
     pub snapshot: Snapshot,
-    /// External forces by dof [force].
+    /// External forces by dof [force]; none where fields are not stored.
     pub force: Vec<f64>,
-    /// Reactions by dof [force].
+    /// Reactions by dof [force]; none where fields are not stored.
     pub reactions: Vec<f64>,
     /// Componentwise backward error of the solution; relative out-of-balance force where joints are not elastic.
     pub residual: f64,
@@ -38,6 +41,8 @@ pub struct State {
     pub work: f64,
     /// Largest energy so far [force × length].
     largest: f64,
+    /// What the step knows without displacements; none outside such a step.
+    ledger: Option<Ledger>,
 }
 
 /// A joint that is not elastic, after an increment that converged.
@@ -54,7 +59,10 @@ pub(super) struct JointAnswer {
 /// An increment that converged.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
-    pub(super) solution: Solution,
+    /// Displacements and reactions, if they were recovered.
+    pub(super) solution: Option<Solution>,
+    /// What stands for them otherwise.
+    pub(super) ledger: Option<Ledger>,
     /// Joints that are not elastic.
     pub(super) joints: Vec<JointAnswer>,
     pub(super) iterations: usize,
@@ -75,21 +83,52 @@ impl State {
         let (force, reactions) = (u.clone(), u);
         let (stored, dissipated, work, largest) = (0.0, 0.0, 0.0, 0.0);
         let (residual, residuals) = (0.0, vec![0.0]);
-        let mut state =
-            State { snapshot, force, reactions, residual, residuals, stored, dissipated, work, largest };
+        let mut state = State {
+            snapshot,
+            force,
+            reactions,
+            residual,
+            residuals,
+            stored,
+            dissipated,
+            work,
+            largest,
+            ledger: None,
+        };
         state.recover(problem);
         state
     }
 
-    /// Takes what converged under external forces `force`.
-    pub(super) fn accept(&mut self, problem: &Problem, found: Found, force: Vec<f64>) {
-        let Found { solution: Solution { u, reactions, .. }, joints, residuals, .. } = found;
-        self.work += (0..u.len())
-            .map(|i| {
-                let mean = 0.5 * (force[i] + reactions[i] + self.force[i] + self.reactions[i]);
-                mean * (u[i] - self.snapshot.u[i])
-            })
-            .sum::<f64>();
+    /// Opens a step whose increments may do without displacements.
+    pub(super) fn open(&mut self, ledger: Option<Ledger>) {
+        self.ledger = ledger;
+    }
+
+    /// True if displacements were recovered.
+    fn is_complete(&self) -> bool {
+        !self.snapshot.u.is_empty()
+    }
+
+    /// Takes what converged under a load.
+    pub(super) fn accept(&mut self, problem: &Problem, found: Found, load: Load) {
+        let Found { solution, mut ledger, joints, residuals, .. } = found;
+        self.work += match (&ledger, &self.ledger, &solution) {
+            (Some(now), Some(before), _) => now.work_since(before),
+            (_, _, Some(solution)) if self.is_complete() => self.work_to(solution, &load),
+            _ => f64::NAN, // an engine that keeps no ledger recovers every increment
+        };
+        if let Some(ledger) = &mut ledger {
+            let first = ledger.columns.len() - problem.reactions.len();
+            for (column, reaction) in ledger.columns[first..].iter_mut().zip(&problem.reactions) {
+                *column += reaction.dofs.iter().map(|&dof| load.released[dof]).sum::<f64>();
+            }
+        }
+        self.ledger = ledger;
+        (self.snapshot.u, self.force, self.reactions) = (Vec::new(), Vec::new(), Vec::new());
+        if let Some(Solution { u, mut reactions, .. }) = solution {
+            reactions.iter_mut().zip(&load.released).for_each(|(reaction, released)| *reaction += released);
+            (self.snapshot.u, self.force, self.reactions) = (u, load.force, reactions);
+        }
         for JointAnswer { joint, jumps, memory } in joints {
             let (law, _) = &problem.laws[joint];
             let old = &mut self.snapshot.states[joint];
@@ -105,15 +144,31 @@ impl State {
             self.snapshot.jumps[joint] = jumps;
         }
         self.residual = residuals[residuals.len() - 1];
-        (self.snapshot.u, self.force, self.reactions, self.residuals) = (u, force, reactions, residuals);
+        self.residuals = residuals;
+    }
+
+    /// ½ (f₀ + f₁) · Δu of loads and reactions.
+    fn work_to(&self, solution: &Solution, load: &Load) -> f64 {
+        let at = |i: usize| {
+            let before = self.force[i] + self.reactions[i];
+            let now = load.force[i] + load.released[i] + solution.reactions[i];
+            0.5 * (before + now) * (solution.u[i] - self.snapshot.u[i])
+        };
+        (0..solution.u.len()).map(at).sum()
     }
 
     /// Stresses, tractions and stored energy of the displacements and states.
     pub(super) fn recover(&mut self, problem: &Problem) {
         let Problem { model, laws, .. } = problem;
         let u = &self.snapshot.u;
-        self.snapshot.stresses = (0..model.bodies.len()).map(|b| stresses(model, b, u)).collect();
-        self.stored = self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum();
+        self.snapshot.stresses = match self.is_complete() {
+            true => (0..model.bodies.len()).map(|b| stresses(model, b, u)).collect(),
+            false => Vec::new(),
+        };
+        self.stored = match &self.ledger {
+            Some(ledger) if !self.is_complete() => ledger.stored(self.across(model)),
+            _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
+        };
         self.snapshot.tractions = Vec::new();
         for (k, (joint, (law, initial))) in model.joints.iter().zip(laws).enumerate() {
             let area = |p: usize| model.thickness * joint.coupling.points[p].weight;
@@ -140,6 +195,17 @@ impl State {
         self.largest = energies.into_iter().fold(self.largest, f64::max);
     }
 
+    /// Σ q · a of the joints that are not elastic.
+    fn across(&self, model: &Model) -> f64 {
+        let joints = model.joints.iter().zip(&self.snapshot.jumps).zip(&self.snapshot.states);
+        let points =
+            joints.flat_map(|((joint, jumps), states)| joint.coupling.points.iter().zip(jumps).zip(states));
+        let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
+            model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
+        };
+        points.map(at).sum()
+    }
+
     /// work − stored − dissipated over the largest of them so far.
     pub fn energy_balance(&self) -> f64 {
         let left = self.work - self.stored - self.dissipated;
@@ -157,12 +223,18 @@ impl State {
             dissipated: self.dissipated,
             work: self.work,
         };
-        let probes = problem.probes.iter().map(|(_, probe)| probe.value(&problem.model, &input));
-        let reactions = problem
-            .reactions
-            .iter()
-            .map(|reaction| reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum());
-        probes.chain(reactions).collect()
+        let mut columns =
+            self.ledger.iter().filter(|_| !self.is_complete()).flat_map(|ledger| &ledger.columns).copied();
+        let mut values = Vec::with_capacity(problem.probes.len() + problem.reactions.len());
+        for (_, probe) in &problem.probes {
+            let prepared = if let BoundProbe::Displacement(_) = probe { columns.next() } else { None };
+            values.push(prepared.unwrap_or_else(|| probe.value(&problem.model, &input)));
+        }
+        for reaction in &problem.reactions {
+            let sum = || reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum();
+            values.push(columns.next().unwrap_or_else(sum));
+        }
+        values
     }
 }
 

@@ -12,7 +12,8 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 
 use super::dense::{Lu, column_mut};
-use super::{Base, Form, Solution};
+use super::measure::Functional;
+use super::{Base, Form, Measure, Ramp, Solution};
 use crate::assembly::{Joint, Tangent};
 use crate::coupling::Csr;
 
@@ -31,6 +32,9 @@ pub struct Dual<'a> {
     /// First unknown of every active joint, and the end.
     first: Vec<usize>,
     flexibility: Mat<f64>,
+    /// Targets at both ends of a prepared step, and its measures.
+    targets: [Vec<f64>; 2],
+    functionals: Vec<Functional>,
     jacobian: Option<Lu>,
     /// Values of the tangents that are factored.
     factored: Vec<Vec<f64>>,
@@ -51,7 +55,8 @@ impl<'a> Dual<'a> {
         springs.iter().for_each(|springs| first.push(first[first.len() - 1] + springs.rows()));
         let flexibility = base.flexibility(active);
         let active = active.to_vec();
-        Dual { base, active, springs, first, flexibility, jacobian: None, factored: Vec::new() }
+        let (targets, functionals, factored) = ([Vec::new(), Vec::new()], Vec::new(), Vec::new());
+        Dual { base, active, springs, first, flexibility, targets, functionals, jacobian: None, factored }
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -77,6 +82,30 @@ impl Form for Dual<'_> {
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
         let u = self.base.solve(force, prescribed).u;
         self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&u)).collect()
+    }
+
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool {
+        self.functionals.clear();
+        let Some(ramp) = ramp else { return false };
+        let ends = [0, 1].map(|end| self.base.solve(&ramp.force[end], &ramp.prescribed[end]));
+        let on_joints = |solution: &Solution| -> Vec<f64> {
+            self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&solution.u)).collect()
+        };
+        self.targets = [on_joints(&ends[0]), on_joints(&ends[1])];
+        let functional = |measure| Functional::new(&self.base, &self.active, ramp, &ends, measure);
+        self.functionals = measures.iter().map(functional).collect();
+        true
+    }
+
+    fn prepared(&self, level: f64) -> Vec<f64> {
+        let [start, end] = &self.targets;
+        let between = |(a, b): (&f64, &f64)| if level == 1.0 { *b } else { a + level * (b - a) };
+        start.iter().zip(end).map(between).collect()
+    }
+
+    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
+        let excess = self.excess(x, forces);
+        self.functionals.iter().map(|functional| functional.value(level, &excess)).collect()
     }
 
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {

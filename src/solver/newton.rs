@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::assembly::{Joint, Tangent};
 
-use super::Solution;
+use super::{Measure, Ramp, Solution};
 
 /// A law point is asked by itself; fewer than this many are not worth a thread.
 const CHUNK: usize = 32;
@@ -51,6 +51,13 @@ pub trait Form {
     fn active(&self) -> &[usize];
     /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
+    /// Prepares what loads that are affine in the load level allow; false if that is nothing. Then `prepared` has the
+    /// target at a level, and `measured` what was asked for, without recovering displacements.
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool;
+    /// b at a level of the prepared loads.
+    fn prepared(&self, level: f64) -> Vec<f64>;
+    /// The measures of a solution at a level of the prepared loads.
+    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64>;
     /// Jump coefficients of every active joint.
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
     /// R(x) for the forces q of every active joint on its jump coefficients.

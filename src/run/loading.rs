@@ -1,0 +1,142 @@
+//! The loads of one step as the engine sees them, and what the history asks of the displacements.
+
+use crate::error::Result;
+use crate::problem::{BoundProbe, Problem, Stage};
+use crate::solver::{Measure, Ramp};
+
+/// Loads and prescribed displacements at one load level.
+#[derive(Debug, Clone)]
+pub(super) struct Load {
+    /// Load level in the step, 0 to 1.
+    pub(super) level: f64,
+    /// External forces [force].
+    pub(super) force: Vec<f64>,
+    /// What is left of released reactions [force].
+    pub(super) released: Vec<f64>,
+    /// External forces and released reactions less the initial tractions' [force].
+    pub(super) loaded: Vec<f64>,
+    /// Displacements of held dofs [length].
+    pub(super) prescribed: Vec<f64>,
+}
+
+/// What a step starts from.
+#[derive(Debug)]
+pub(super) struct Start<'a> {
+    problem: &'a Problem,
+    stage: &'a Stage,
+    initial: &'a [f64],
+    u: Vec<f64>,
+    reactions: Vec<f64>,
+}
+
+impl<'a> Start<'a> {
+    /// Of displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
+    pub(super) fn new(
+        problem: &'a Problem,
+        stage: &'a Stage,
+        initial: &'a [f64],
+        u: &[f64],
+        reactions: &[f64],
+    ) -> Start<'a> {
+        Start { problem, stage, initial, u: u.to_vec(), reactions: reactions.to_vec() }
+    }
+
+    /// Loads at a level.
+    pub(super) fn at(&self, level: f64) -> Result<Load> {
+        let mut released = vec![0.0; self.u.len()];
+        let left = |dof: usize| (1.0 - level) * self.reactions[dof];
+        self.stage.released.iter().for_each(|&dof| released[dof] = left(dof));
+        let force = self.stage.force(&self.problem.model, level)?;
+        let prescribed = self.stage.prescribed(&self.u, level)?;
+        let loaded = force.iter().zip(&released).zip(self.initial).map(|((f, r), f0)| f + r - f0).collect();
+        Ok(Load { level, force, released, loaded, prescribed })
+    }
+
+    /// Loads at both ends if they are affine between them.
+    pub(super) fn ramp(&self) -> Result<Option<Ramp>> {
+        if self.stage.follows_load_factor() {
+            return Ok(None);
+        }
+        let [start, end] = [self.at(0.0)?, self.at(1.0)?];
+        Ok(Some(Ramp { force: [start.loaded, end.loaded], prescribed: [start.prescribed, end.prescribed] }))
+    }
+
+    /// The ledger of the state that the step starts from.
+    pub(super) fn ledger(&self, ramp: &Ramp) -> Ledger {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let reactions: Vec<f64> = self
+            .reactions
+            .iter()
+            .zip(&self.stage.held)
+            .map(|(r, &held)| if held { *r } else { 0.0 })
+            .collect();
+        let [f0, f1] = [0, 1].map(|end| dot(&ramp.force[end], &self.u));
+        let [r0, r1] = [0, 1].map(|end| dot(&ramp.prescribed[end], &reactions));
+        let (loads, supports) = ([f0, f1 - f0], [r0, r1 - r0]);
+        Ledger { level: 0.0, loads, supports, initial: dot(self.initial, &self.u), columns: Vec::new() }
+    }
+
+    /// What work, energy and history need of the displacements when these are not recovered: see `Ledger`.
+    pub(super) fn measures(&self, ramp: &Ramp) -> Vec<Measure> {
+        let terms = |at: &dyn Fn(usize) -> f64| -> Vec<(usize, f64)> {
+            (0..self.u.len()).map(|i| (i, at(i))).filter(|(_, value)| *value != 0.0).collect()
+        };
+        let held = |i: usize| self.stage.held[i];
+        let ([f0, f1], [u0, u1]) = (&ramp.force, &ramp.prescribed);
+        let mut measures = vec![
+            Measure::Displacement(terms(&|i| f0[i])),
+            Measure::Displacement(terms(&|i| f1[i] - f0[i])),
+            Measure::Reaction(terms(&|i| if held(i) { u0[i] } else { 0.0 })),
+            Measure::Reaction(terms(&|i| if held(i) { u1[i] - u0[i] } else { 0.0 })),
+            Measure::Displacement(terms(&|i| self.initial[i])),
+        ];
+        for (_, probe) in &self.problem.probes {
+            if let BoundProbe::Displacement(weights) = probe {
+                measures.push(Measure::Displacement(weights.clone()));
+            }
+        }
+        for reaction in &self.problem.reactions {
+            measures.push(Measure::Reaction(reaction.dofs.iter().map(|&dof| (dof, 1.0)).collect()));
+        }
+        measures
+    }
+}
+
+/// The measures of one increment, in the order of `Start::measures`.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Ledger {
+    /// Load level.
+    pub(super) level: f64,
+    /// f · u with the loads at the step's start, and with their change.
+    pub(super) loads: [f64; 2],
+    /// Reactions · ū with the displacements at the step's start, and with their change.
+    pub(super) supports: [f64; 2],
+    /// Forces of the initial tractions · u.
+    pub(super) initial: f64,
+    /// Displacement probes, then reactions.
+    pub(super) columns: Vec<f64>,
+}
+
+impl Ledger {
+    /// From what an engine has measured.
+    pub(super) fn new(level: f64, measured: &[f64]) -> Option<Ledger> {
+        let [f0, f1, r0, r1, initial, columns @ ..] = measured else { return None };
+        let (loads, supports) = ([*f0, *f1], [*r0, *r1]);
+        Some(Ledger { level, loads, supports, initial: *initial, columns: columns.to_vec() })
+    }
+
+    /// ½ (f₀ + f₁) · Δu of loads and reactions from an earlier ledger to this one; initial tractions are no loads.
+    pub(super) fn work_since(&self, before: &Ledger) -> f64 {
+        let mean = 0.5 * (self.level + before.level);
+        let loads = self.loads[0] - before.loads[0] + mean * (self.loads[1] - before.loads[1]);
+        let supports = 0.5 * (self.supports[1] + before.supports[1]) * (self.level - before.level);
+        loads + supports + self.initial - before.initial
+    }
+
+    /// Elastic energy of the bodies and of the joints that are elastic, `across`: Σ q · a of all others.
+    pub(super) fn stored(&self, across: f64) -> f64 {
+        let loads = self.loads[0] + self.level * self.loads[1];
+        let supports = self.supports[0] + self.level * self.supports[1];
+        0.5 * (loads + supports - across) + self.initial
+    }
+}

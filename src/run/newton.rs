@@ -1,0 +1,213 @@
+//! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
+
+use std::sync::Arc;
+
+use nalgebra::Vector2;
+
+use super::engine::{Engine, Failure};
+use super::loading::{Ledger, Load};
+use super::state::{Found, JointAnswer, State};
+use crate::law::{self, Law};
+use crate::problem::Problem;
+use crate::solver::{
+    Base, Condensation, Continuum, Dual, Form, Measure, Newton, NotPositiveDefinite, Plain, Ramp, Respond,
+    Settings,
+};
+
+/// Most corrections of what the displacements say against the condensed form.
+const DEFECTS: usize = 3;
+
+/// Makes the form for a set of supports; true if something was factored for it.
+type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
+
+/// Newton's method on a form of the equilibrium that is made anew for every set of supports.
+pub(super) struct NewtonEngine<'a, F> {
+    problem: &'a Problem,
+    settings: Settings,
+    make: Make<'a, F>,
+    form: Option<(Vec<bool>, F, Newton)>,
+    /// Unknowns of the form at the accepted increment before the last, at the last, and at what was found last.
+    before: Vec<f64>,
+    unknowns: Vec<f64>,
+    found: Vec<f64>,
+    /// The step's loads are prepared; increments can do without displacements; none has been tried yet.
+    prepared: bool,
+    trusted: bool,
+    first: bool,
+}
+
+impl<'a, F> NewtonEngine<'a, F> {
+    fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
+        let (before, unknowns, found) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
+        let (prepared, trusted, first) = (false, false, true);
+        NewtonEngine {
+            problem,
+            settings,
+            make,
+            form: None,
+            before,
+            unknowns,
+            found,
+            prepared,
+            trusted,
+            first,
+        }
+    }
+}
+
+impl<'a> NewtonEngine<'a, Dual<'a>> {
+    /// On the jump coefficients of the joints that are not elastic.
+    pub(super) fn condensed(
+        problem: &'a Problem,
+        continuum: &'a Continuum,
+        stiffness: &'a [Vec<f64>],
+        settings: Settings,
+    ) -> Self {
+        let active = active(problem);
+        let size: usize = active.iter().map(|&k| problem.model.joints[k].size()).sum();
+        let mut condensed: Option<Arc<Condensation>> = None;
+        let make = move |held: &[bool]| {
+            let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
+            let anew = reused.is_none();
+            let condensation = match reused {
+                Some(condensation) => condensation,
+                None => Arc::new(continuum.condense(held)?),
+            };
+            condensed = Some(condensation.clone());
+            let base = Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?;
+            Ok((Dual::new(base, &active, stiffness), anew))
+        };
+        NewtonEngine::new(problem, settings, Box::new(make), size)
+    }
+}
+
+impl<'a> NewtonEngine<'a, Plain<'a>> {
+    /// On all displacements.
+    pub(super) fn plain(
+        problem: &'a Problem,
+        continuum: &'a Continuum,
+        stiffness: &'a [Vec<f64>],
+        settings: Settings,
+    ) -> Self {
+        let active = active(problem);
+        let make = move |held: &[bool]| {
+            let Continuum { pattern, stiffness: k, .. } = continuum;
+            Ok((Plain::new(&problem.model.joints, &active, stiffness, pattern, k, held), true))
+        };
+        NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())
+    }
+}
+
+impl<F: Form> Engine for NewtonEngine<'_, F> {
+    fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
+        if self.form.as_ref().is_some_and(|(of, ..)| of == held) {
+            return Ok(false);
+        }
+        self.form = None;
+        let (form, anew) = (self.make)(held)?;
+        let newton = Newton::new(&form);
+        self.form = Some((held.to_vec(), form, newton));
+        Ok(anew)
+    }
+
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
+        if let Some((_, form, _)) = &mut self.form {
+            self.prepared = form.prepare(ramp, measures);
+            self.trusted = self.prepared && !measures.is_empty();
+            self.first = true;
+        }
+    }
+
+    fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure> {
+        let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
+        let mut target = match self.prepared {
+            true => form.prepared(load.level),
+            false => form.target(&load.loaded, &load.prescribed),
+        };
+        if !target.iter().all(|value| value.is_finite()) {
+            return Err(Failure::Unusable(f64::INFINITY));
+        }
+        let extrapolate = |(now, before): (&f64, &f64)| now + ahead * (now - before);
+        let mut start: Vec<f64> = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
+        let (mut residuals, mut passes) = (Vec::new(), 0);
+        // the first increment of a step shows whether displacements are needed against the rounding of the others
+        let complete = complete || self.first || !self.trusted;
+        let (iterate, solution) = loop {
+            let starts = [&self.unknowns, &start];
+            let iterate = newton.solve(form, &laws, &starts, &target, self.settings);
+            let iterate = iterate.map_err(Failure::Unconverged)?;
+            residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
+            if !complete {
+                break (iterate, None);
+            }
+            let solution = form.recover(&iterate.x, &iterate.forces, &load.loaded, &load.prescribed);
+            let defect = form.defect(&iterate.x, &solution.u);
+            let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
+            passes += 1;
+            if defect.is_empty() || left <= self.settings.tolerance || passes > DEFECTS {
+                break (iterate, Some(solution));
+            }
+            target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
+            start = iterate.x;
+        };
+        self.trusted &= passes <= 1;
+        self.first = false;
+        let ledger = match self.trusted {
+            true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
+            false => None,
+        };
+        self.found = iterate.x;
+        let joints = form.active().iter().zip(iterate.jumps).zip(iterate.memory);
+        let joints = joints.map(|((&joint, jumps), memory)| {
+            let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+            JointAnswer { joint, jumps, memory }
+        });
+        let (joints, iterations) = (joints.collect(), residuals.len() - 1);
+        Ok(Found { solution, ledger, joints, iterations, residuals })
+    }
+
+    fn accept(&mut self) {
+        std::mem::swap(&mut self.before, &mut self.unknowns);
+        std::mem::swap(&mut self.unknowns, &mut self.found);
+    }
+}
+
+/// Joints that are not elastic.
+pub(super) fn active(problem: &Problem) -> Vec<usize> {
+    let laws = problem.laws.iter().enumerate();
+    laws.filter(|(_, (law, _))| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
+}
+
+/// The laws with the states at the last accepted increment.
+struct Laws<'a> {
+    problem: &'a Problem,
+    old: &'a [Vec<law::State>],
+}
+
+impl Respond for Laws<'_> {
+    type Memory = (law::State, f64);
+
+    fn respond(
+        &self,
+        joint: usize,
+        point: usize,
+        jump: &[f64],
+        traction: &mut [f64],
+        stiffness: &mut [f64],
+    ) -> Result<(law::State, f64), String> {
+        let (law, _) = &self.problem.laws[joint];
+        let stepping = self.problem.stepping[joint];
+        let answer = law
+            .respond(Vector2::new(jump[0], jump[1]), &self.old[joint][point], stepping)
+            .map_err(|why| why.to_string())?;
+        traction.copy_from_slice(answer.traction.as_slice());
+        stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
+        Ok((answer.state, answer.dissipation))
+    }
+
+    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {
+        let [kn, kt] = self.problem.laws[joint].0.elastic_stiffness();
+        stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
+    }
+}
