@@ -1,6 +1,5 @@
 //! VTK's XML unstructured grid: raw appended data, zlib in blocks that are compressed in parallel.
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 
 use flate2::{Compression, write::ZlibEncoder};
@@ -58,63 +57,87 @@ impl Array {
     }
 }
 
-impl Grid {
-    /// The bytes of the file.
-    pub(super) fn encode(self) -> Vec<u8> {
-        let (n_points, n_cells) = (self.points.len() / 3, self.types.len());
-        let mut appended = Vec::new();
-        let mut xml = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n",
-        );
-        let mut add = |xml: &mut String, array: Array, tuples: &str| {
-            let kind = match array.data {
-                Data::Float(_) => "Float64",
-                Data::Int(_) => "Int64",
-                Data::Byte(_) => "UInt8",
-            };
-            // readers take a scalar without this attribute as a flat list
-            let components = match array.components {
-                1 => String::new(),
-                n => format!(" NumberOfComponents=\"{n}\""),
-            };
-            // writing to a string cannot fail
-            let _ = writeln!(
-                xml,
-                "<DataArray type=\"{kind}\" Name=\"{}\"{components}{tuples} format=\"appended\" offset=\"{}\"/>",
-                array.name,
-                appended.len()
-            );
-            append(array.data, &mut appended);
+/// The text of the file, broken off wherever an offset stands, and the blocks whose offsets these are.
+struct Draft {
+    text: Vec<String>,
+    blocks: Vec<Vec<u8>>,
+}
+
+impl Draft {
+    /// Goes on with the text.
+    fn write(&mut self, text: &str) {
+        if let Some(last) = self.text.last_mut() {
+            last.push_str(text);
+        }
+    }
+
+    /// Announces an array and keeps its block.
+    fn add(&mut self, array: Array, more: &str) {
+        let kind = match array.data {
+            Data::Float(_) => "Float64",
+            Data::Int(_) => "Int64",
+            Data::Byte(_) => "UInt8",
         };
-        add(&mut xml, Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
-        let _ = writeln!(
-            xml,
-            "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>"
-        );
-        add(&mut xml, Array { name: "Points", components: 3, data: Data::Float(self.points) }, "");
-        xml.push_str("</Points>\n<Cells>\n");
-        add(&mut xml, Array { name: "connectivity", components: 1, data: Data::Int(self.connectivity) }, "");
-        add(&mut xml, Array { name: "offsets", components: 1, data: Data::Int(self.offsets) }, "");
-        add(&mut xml, Array { name: "types", components: 1, data: Data::Byte(self.types) }, "");
-        xml.push_str("</Cells>\n<PointData>\n");
-        for array in self.point_data {
-            add(&mut xml, array, "");
+        // readers take a scalar without this attribute as a flat list
+        let components = match array.components {
+            1 => String::new(),
+            n => format!(" NumberOfComponents=\"{n}\""),
+        };
+        let name = array.name;
+        self.write(&format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\"{components}{more} format=\"appended\" offset=\""
+        ));
+        self.text.push("\"/>\n".into());
+        self.blocks.push(block(array.data));
+    }
+
+    /// The bytes of the file, the last array first: meshio replaces offsets one after the other and takes the first
+    /// tag that has the one it looks for, which must not be a tag whose offset it has replaced.
+    fn finish(self) -> Vec<u8> {
+        let mut offset: usize = self.blocks.iter().map(Vec::len).sum();
+        let mut bytes = Vec::new();
+        for (k, text) in self.text.iter().enumerate() {
+            bytes.extend_from_slice(text.as_bytes());
+            if let Some(block) = self.blocks.get(k) {
+                offset -= block.len();
+                bytes.extend_from_slice(offset.to_string().as_bytes());
+            }
         }
-        xml.push_str("</PointData>\n<CellData>\n");
-        for array in self.cell_data {
-            add(&mut xml, array, "");
-        }
-        xml.push_str("</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
-        let mut bytes = xml.into_bytes();
-        bytes.extend_from_slice(&appended);
+        bytes.extend_from_slice(b"<AppendedData encoding=\"raw\">\n_");
+        self.blocks.iter().rev().for_each(|block| bytes.extend_from_slice(block));
         bytes.extend_from_slice(b"\n</AppendedData>\n</VTKFile>\n");
         bytes
     }
 }
 
-/// Appends one array: number of blocks, block size, size of the last, compressed sizes, blocks.
-fn append(data: Data, out: &mut Vec<u8>) {
+impl Grid {
+    /// The bytes of the file.
+    pub(super) fn encode(self) -> Vec<u8> {
+        let (n_points, n_cells) = (self.points.len() / 3, self.types.len());
+        let head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
+                    byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
+                    <UnstructuredGrid>\n<FieldData>\n";
+        let mut draft = Draft { text: vec![head.into()], blocks: Vec::new() };
+        draft.add(Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
+        draft.write(&format!(
+            "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"
+        ));
+        draft.add(Array { name: "Points", components: 3, data: Data::Float(self.points) }, "");
+        draft.write("</Points>\n<Cells>\n");
+        draft.add(Array { name: "connectivity", components: 1, data: Data::Int(self.connectivity) }, "");
+        draft.add(Array { name: "offsets", components: 1, data: Data::Int(self.offsets) }, "");
+        draft.add(Array { name: "types", components: 1, data: Data::Byte(self.types) }, "");
+        draft.write("</Cells>\n<PointData>\n");
+        self.point_data.into_iter().for_each(|array| draft.add(array, ""));
+        draft.write("</PointData>\n<CellData>\n");
+        self.cell_data.into_iter().for_each(|array| draft.add(array, ""));
+        draft.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n");
+        draft.finish()
+    }
+}
+
+/// One array: number of blocks, block size, size of the last, compressed sizes, blocks.
+fn block(data: Data) -> Vec<u8> {
     let (blocks, bytes): (Vec<Vec<u8>>, usize) = match &data {
         Data::Float(values) => (compressed(values, f64::to_le_bytes), 8 * values.len()),
         Data::Int(values) => (compressed(values, i64::to_le_bytes), 8 * values.len()),
@@ -122,12 +145,10 @@ fn append(data: Data, out: &mut Vec<u8>) {
     };
     drop(data); // the bytes below take its place in memory
     let last = bytes % BLOCK; // zero: the last block is full
-    for header in [blocks.len(), BLOCK, last].into_iter().chain(blocks.iter().map(Vec::len)) {
-        out.extend_from_slice(&(header as u64).to_le_bytes());
-    }
-    for block in blocks {
-        out.extend_from_slice(&block);
-    }
+    let header = [blocks.len(), BLOCK, last].into_iter().chain(blocks.iter().map(Vec::len));
+    let mut out: Vec<u8> = header.flat_map(|number| (number as u64).to_le_bytes()).collect();
+    blocks.iter().for_each(|block| out.extend_from_slice(block));
+    out
 }
 
 /// The values block by block.
