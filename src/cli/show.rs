@@ -6,14 +6,16 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
+use crate::output::Row;
 use crate::problem::stiffness_number;
-use crate::run::{Done, Event, Prepared, memory::gigabytes};
+use crate::run::{Done, Event, Prepared, Totals, memory::gigabytes};
 
 /// Prints events.
 pub(super) struct Show {
     quiet: bool,
     bar: Option<ProgressBar>,
-    header: bool,
+    /// Counts up to the last increment shown.
+    totals: Option<Totals>,
 }
 
 impl Show {
@@ -26,7 +28,7 @@ impl Show {
             }
             bar
         });
-        Show { quiet, bar, header: false }
+        Show { quiet, bar, totals: None }
     }
 
     /// One line, above the bar if there is one.
@@ -57,26 +59,39 @@ impl Show {
                 Some(bar) => bar.suspend(|| eprintln!("warning: {text}")),
                 None => eprintln!("warning: {text}"),
             },
-            Event::Increment { row, number, of, total } => {
-                if !self.header {
-                    self.line(&format!("{:<20} {:>9} {:>6} {:>10}", "step", "incr", "iter", "error"));
-                    self.header = true;
-                    if let Some(bar) = &self.bar
-                        && let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {eta}")
-                    {
-                        bar.set_length(total as u64);
-                        bar.set_style(style);
-                    }
+            Event::Increment { row, number, of, total, totals } => {
+                if self.totals.is_none() {
+                    self.begin(total, totals);
                 }
                 if let Some(bar) = &self.bar {
                     bar.set_position(row.increment as u64);
                 }
-                let increment = format!("{number}/{of}");
-                self.line(&format!(
-                    "{:<20} {increment:>9} {:>6} {:>10.1e}",
-                    row.step, row.iterations, row.residual
-                ));
+                let halved = totals.halved - self.totals.as_ref().map_or(0, |before| before.halved);
+                self.line(increment(row, number, of, halved).trim_end());
+                self.totals = Some(totals.clone());
             }
+        }
+    }
+
+    /// How the equations are solved, and the head of the table of increments.
+    fn begin(&self, total: usize, totals: &Totals) {
+        let how = match totals.strategy {
+            "joined" => "linear, one factor",
+            "in parts" => "linear, factors of two parts side by side",
+            "condensed" => "Newton's method on the jumps of the joints",
+            "plain" => "Newton's method on all displacements",
+            other => other,
+        };
+        self.line(&format!("{:<8} {:<12} {how}", "solving", totals.strategy));
+        self.line(&format!(
+            "{:<20} {:>9} {:>8} {:>6} {:>10} {:>10}",
+            "step", "incr", "load", "iter", "residual", "energy"
+        ));
+        if let Some(bar) = &self.bar
+            && let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {eta}")
+        {
+            bar.set_length(total as u64);
+            bar.set_style(style);
         }
     }
 
@@ -95,6 +110,12 @@ impl Show {
             .filter(|(_, seconds)| *seconds >= 0.005)
             .map(|(stage, seconds)| format!("{stage} {seconds:.2}"))
             .collect();
+        if let Some(totals) = self.totals.as_ref().filter(|totals| totals.iterations > 0) {
+            let Totals { increments, iterations, halved, energy_balance, .. } = totals;
+            self.line(&format!(
+                "solved   {increments} increments, {iterations} iterations, {halved} cuts; energies balance to {energy_balance:.1e}"
+            ));
+        }
         self.line(&format!("time     {:.2} s: {}", done.clock.total(), stages.join(", ")));
         if let Some(peak) = done.peak_memory {
             self.line(&format!("memory   {}", gigabytes(peak)));
@@ -138,6 +159,24 @@ impl Show {
         let held = problem.stages.first().map_or(0, |stage| stage.held.iter().filter(|&&held| held).count());
         self.line(&format!("{} dofs, {held} held in the first step", model.dofs()));
     }
+}
+
+/// A row of the table; a mark if the increment had to be cut in parts.
+fn increment(row: &Row, number: usize, of: usize, halved: usize) -> String {
+    let cut = match halved {
+        0 => String::new(),
+        1 => "cut once".into(),
+        n => format!("cut {n} times"),
+    };
+    format!(
+        "{:<20} {:>9} {:>8.4} {:>6} {:>10.1e} {:>10.1e}  {cut}",
+        row.step,
+        format!("{number}/{of}"),
+        row.load_factor,
+        row.iterations,
+        row.residual,
+        row.energy_balance
+    )
 }
 
 fn describe(joint: &Joint) -> String {

@@ -69,6 +69,8 @@ pub enum Event<'a> {
         of: usize,
         /// Increments of all steps.
         total: usize,
+        /// The counts so far.
+        totals: &'a Totals,
     },
 }
 
@@ -96,7 +98,7 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
     let listen = std::cell::RefCell::new(listen);
     let mut writer: Option<Writer> = None;
     let mut balance = None;
-    let mut visit = |place: Place, state: &State, _: &Totals, clock: &mut Clock| -> Result<()> {
+    let mut visit = |place: Place, state: &State, totals: &Totals, clock: &mut Clock| -> Result<()> {
         (listen.borrow_mut())(Event::Stage("write"));
         clock.begin("write");
         let fields = scene.output.fields;
@@ -136,7 +138,7 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
             balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
         }
         let of = place.stage.increments;
-        (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total });
+        (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total, totals });
         Ok(())
     };
     let totals =
