@@ -20,9 +20,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
 import page
-from page import BLUE, FACE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, Page, sign
+from exact import SOLUTIONS
+from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
+from traction import draw_traction
 
-RUNS = [BLUE, VERMILLION, GREEN, ORANGE]  # this one and those beside it
 FEW = 60  # segments that one picture can show
 
 
@@ -122,59 +123,6 @@ def spread(centres, most=32):
     return nearest[first], side
 
 
-def draw_traction(results, name, label, others, exact, title, units):
-    """Normal and tangential traction along one interface, beside those of other runs and exact values."""
-    width, height = page.LEFT + page.WIDTH + page.RIGHT, 4.2
-    figure, axes = plt.subplots(2, 1, figsize=(width, height), sharex=True)
-    figure.subplots_adjust(
-        left=page.LEFT / width,
-        right=1 - page.RIGHT / width,
-        top=1 - page.TOP / height,
-        bottom=page.BOTTOM / height,
-    )
-    runs = [(label, results), *others]
-    for order, (text, run) in enumerate(runs):
-        points, segments, _, _ = run.midplane(name)
-        field = run.interfaces[name]
-        s = arc_length(field.points[:, :2], points[segments[0, 0]])
-        for component, axis in enumerate(axes):
-            look = {
-                "color": RUNS[order],
-                "linewidth": 1.0,
-                "marker": "o",
-                "markersize": 2.3,
-                "zorder": 5 - order,
-            }
-            axis.plot(s, field["traction"][:, component], label=text, **look)
-    length = np.linalg.norm(np.diff(points[segments], axis=1), axis=2).sum()
-    for component, value, *part in exact:
-        look = {"color": PALE, "linewidth": 5, "solid_capstyle": "butt", "zorder": 1}
-        axes["nt".index(component)].plot(part or [0.0, length], [value, value], label="exact", **look)
-    for axis, component in zip(axes, ("normal $t_n$", "tangential $t_t$"), strict=True):
-        axis.set(xlim=(0, length), ylabel=f"{component} [{units.stress}]")
-        axis.grid(axis="y")
-        axis.xaxis.set_major_formatter("{x:g}")
-        do_not_magnify_round_off(axis, np.abs(field["traction"]).max() or 1.0)
-    axes[1].set(xlabel=f"distance along {name} [{units.length}]")
-    axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=5, borderaxespad=0.2)
-    figure.align_ylabels(axes)
-    page.heading(axes[0], title, f"traction along {name} at its law points, tension positive")
-    page.save(figure, results.pictures / f"traction_{name}.png")
-
-
-def arc_length(points, start):
-    """Distance of points from the start, measured along them."""
-    return np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1))
-
-
-def do_not_magnify_round_off(axis, size):
-    """A line that is constant but for round-off shall look constant."""
-    axis.margins(y=0.08)
-    low, high = axis.get_ylim()
-    if high - low < 1e-6 * size:
-        axis.set_ylim((low + high) / 2 - 0.1 * size, (low + high) / 2 + 0.1 * size)
-
-
 def draw_coupling(results, name, interface, title, units):
     """Side A below, side B above, pulled apart; between them segments, grid and law points."""
     points, segments, cells, parents = results.midplane(name)
@@ -259,13 +207,14 @@ def draw_midplane(axis, points, segments, cells, half):
 
 
 def parse_exact(text):
-    """COMPONENT=VALUE[@FROM:TO], such as t=-1.5@0.6:1.4: component, value and, if given, both ends."""
+    """COMPONENT=VALUE[@FROM:TO], such as t=-1.5@0.6:1.4: component, both ends or None, the value at both."""
     try:
         component, _, rest = text.partition("=")
         value, _, part = rest.partition("@")
         if component not in ("n", "t") or part.count(":") != bool(part):
             raise ValueError
-        return component, float(value), *map(float, filter(None, part.split(":")))
+        places = [float(end) for end in part.split(":")] if part else None
+        return component, places, [float(value)] * 2
     except ValueError:
         message = f"{text} is not n=VALUE or t=VALUE, with or without @FROM:TO"
         raise argparse.ArgumentTypeError(message) from None
@@ -286,6 +235,9 @@ def parse_arguments():
     parser.add_argument("--compare", help="another run, for the tractions", metavar="LABEL=RESULTS", **many)
     exact = "an exact traction (n or t), on part of the interface if FROM and TO are given"
     parser.add_argument("--exact", help=exact, metavar="n=VALUE[@FROM:TO]", type=parse_exact, **many)
+    solution = "the exact solution of this scene, for its tractions"
+    parser.add_argument("--solution", help=solution, choices=SOLUTIONS)
+    parser.add_argument("--label", help="name of this run beside others, default: its coupling")
     return parser.parse_args()
 
 
@@ -305,9 +257,13 @@ def main():
         label, _, folder = other.partition("=")
         others.append((label, Results(Path(folder), scene)))
     interfaces = {name: scene["interfaces"][name] for name in results.interfaces}
+    known = arguments.exact
+    if arguments.solution:
+        solution = SOLUTIONS[arguments.solution](scene, results.subdomains)
+        known += [(component, *curve) for component, curve in solution.traction.items()]
     for name, interface in interfaces.items():
-        label = interface.get("coupling", "projected")
-        draw_traction(results, name, label, others, arguments.exact, title, units)
+        label = arguments.label or interface.get("coupling", "projected")
+        draw_traction(results, name, interface["law"], label, others, known, title, units)
     if not page.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return

@@ -15,6 +15,7 @@ from PIL import Image
 
 # Okabe and Ito's colours, told apart by everyone
 BLUE, VERMILLION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
+RUNS = [BLUE, VERMILLION, GREEN, ORANGE]  # a run and those beside it
 INK, GREY, PALE, FACE = "#222222", "#777777", "#C9C9C6", "#F3F3F1"
 
 STYLE = {
@@ -119,8 +120,7 @@ class Page:
 
     def key(self, handles):
         """A legend in the row below the axis."""
-        place = {"loc": "lower left", "bbox_to_anchor": (LEFT / self.size[0], 0), "borderaxespad": 0.3}
-        self.figure.legend(handles=handles, ncols=len(handles), **place)
+        key_below(self.figure, handles)
 
     def scale_bar(self, left, length, label):
         """A bar of a length in the plane, with its meaning, in the row below the axis."""
@@ -128,6 +128,22 @@ class Page:
         right, y = left + length / self.inch, KEY / 2
         self.figure.add_artist(plt.Line2D([left, right], [y, y], color=INK, linewidth=1.4, **inches))
         self.figure.text(right + 0.07, y, label, va="center", **inches)
+
+
+def graphs(rows, height, columns=1):
+    """A figure as wide as the others, with graphs that share their axes and room for a key; the graphs in a list."""
+    width = LEFT + WIDTH + RIGHT
+    share = {"sharex": True, "sharey": "row", "squeeze": False}
+    figure, axes = plt.subplots(rows, columns, figsize=(width, height), **share)
+    sides = {"left": LEFT / width, "right": 1 - RIGHT / width}
+    figure.subplots_adjust(top=1 - TOP / height, bottom=(BOTTOM + KEY) / height, wspace=0.08, **sides)
+    return figure, list(axes.flat)
+
+
+def key_below(figure, handles):
+    """A legend in the row below the axes."""
+    place = {"loc": "lower left", "bbox_to_anchor": (LEFT / figure.get_figwidth(), 0), "borderaxespad": 0.3}
+    figure.legend(handles=handles, ncols=len(handles), **place)
 
 
 def heading(axis, title, subtitle):
@@ -165,6 +181,12 @@ def round_down(value):
     """The largest of 1, 2, 5 times a power of ten that is not above the value."""
     power = 10.0 ** math.floor(math.log10(value))
     return power * max(digit for digit in (1, 2, 5) if digit * power <= value * (1 + 1e-12))
+
+
+def power_of_ten(value):
+    """One digit and its power of ten, for a text."""
+    digit, _, exponent = f"{value:.0e}".partition("e")
+    return f"${digit}\\times 10^{{{int(exponent)}}}$"
 
 
 def scaled(size, unit):

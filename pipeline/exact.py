@@ -1,0 +1,122 @@
+"""Exact solutions of scenes of the gallery, from the numbers of the scene and the sizes of its meshes.
+
+Each is the closed form of a bar or of a rigid block: what the plane model must show where its own assumptions, a
+uniform stress, a stiff block, a thin bar, make it one.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+MANY = 4000  # points of a curve
+
+
+@dataclass
+class Exact:
+    """Columns of the history as curves, tractions along the joint in the last increment, and what to point out."""
+
+    history: dict  # column -> values
+    traction: dict  # "n" or "t" -> (distance along the joint, values)
+    marks: list = field(default_factory=list)  # (column -> value, text)
+    levels: list = field(default_factory=list)  # bounds: (value of the ordinate, text)
+
+
+def sizes(mesh):
+    """Width and height of a body."""
+    return np.ptp(mesh.points[:, 0]), np.ptp(mesh.points[:, 1])
+
+
+def tension(scene, bodies):
+    """u = s (L/E + 1/K_N) - (G_I / chi_0) ln(s / chi_0) once s has reached chi_0: a bar in series with its crack."""
+    law = scene["interfaces"]["joint"]["law"]
+    kn, chi, energy = (law[k] for k in ("normal_stiffness", "tensile_strength", "fracture_energy_i"))
+    length = sum(sizes(bodies[name])[1] for name in ("lower", "upper"))
+    compliance = length / scene["materials"]["rock"]["young"] + 1 / kn
+    end = scene["steps"][-1]["displace"]["upper.top"]["y"]
+
+    def stretch(s):
+        return s * compliance - energy / chi * np.log(s / chi)
+
+    # where the end has been pulled to: stretch falls as s grows
+    low, high = chi * np.exp(-end * chi / energy), chi
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if stretch(middle) > end else (low, middle)
+    stress = np.geomspace(chi, low, MANY)
+    curve = {
+        "displacement": np.append(0.0, stretch(stress)),
+        "stress": np.append(0.0, stress),
+    }
+    width = sizes(bodies["lower"])[0]
+    traction = {"n": ([0.0, width], [low, low]), "t": ([0.0, width], [0.0, 0.0])}
+    peak = {"displacement": chi * compliance, "stress": chi}
+    return Exact(curve, traction, [(peak, f"tensile strength, {chi:g} MPa")])
+
+
+def friction_block(scene, bodies):
+    """A rigid block of weight N, pushed by H at a height: p = N/L + 12 H height x / L^3, tau = min(K_T D, mu p).
+
+    It slips behind a front at the fraction (1 + xi) / 2 of its length, where K_T D = mu p. Then
+    H = mu N / (1 + 3 mu height (1 - xi)^2 / 2 L).
+    """
+    law = scene["interfaces"]["joint"]["law"]
+    kt, mu = law["tangential_stiffness"], law["friction_coefficient"]
+    weight, push = (step["load"] for step in scene["steps"])
+    length, tall = sizes(bodies["block"])
+    normal, height = weight["block.top"]["pressure"] * length, tall / 2
+    end = push["block.left"]["traction"][0] * tall
+
+    def pressure(force, xi):
+        return normal / length + 6 * force * height / length**2 * xi
+
+    def force(xi):
+        return mu * normal / (1 + 1.5 * mu * height * (1 - xi) ** 2 / length)
+
+    xi = np.linspace(-1, 1, MANY)
+    curve = {
+        "push": np.append(0.0, force(xi)),
+        "slide": np.append(0.0, mu * pressure(force(xi), xi) / kt),
+    }
+    front = 1 - np.sqrt((mu * normal / end - 1) * length / (1.5 * mu * height))
+    place = np.linspace(-1, 1, MANY)
+    shear = mu * pressure(end, np.minimum(place, front))
+    s = 0.5 * (1 + place) * length
+    traction = {"n": (s, -pressure(end, place)), "t": (s, shear)}
+    first = {"push": force(-1.0), "slide": force(-1.0) / kt / length}
+    bound = (mu * normal, "$\\mu N$: no equilibrium above")
+    return Exact(curve, traction, [(first, "the heel slips")], [bound])
+
+
+def pull_bar(scene, bodies):
+    """A thin bar on a rigid base, K_T until mu p: shear lag with b = sqrt(K_T / E h) over the length that sticks.
+
+    With a length a at the pulled end slipping, F = t0 (tanh(b (L - a)) / b + a), t0 = mu p.
+    """
+    law = scene["interfaces"]["joint"]["law"]
+    kt, mu = law["tangential_stiffness"], law["friction_coefficient"]
+    length, tall = sizes(bodies["bar"])
+    steps = scene["steps"]
+    limit = mu * steps[0]["load"]["bar.top"]["pressure"]
+    rigidity = scene["materials"]["steel"]["young"] * tall
+    b = np.sqrt(kt / rigidity)
+    end = steps[-1]["load"]["bar.right"]["traction"][0] * tall
+
+    slip = np.linspace(0, length, MANY)
+    behind = limit / b * np.tanh(b * (length - slip))  # force in the bar where it begins to slip
+    force = behind + limit * slip
+    moved = limit / kt + (behind + 0.5 * limit * slip) * slip / rigidity
+    curve = {
+        "force": np.append(0.0, force),
+        "displacement": np.append(0.0, moved),
+        "displacement_free": np.append(0.0, limit / kt / np.cosh(b * (length - slip))),
+    }
+    sticks = length - np.interp(end, force, slip)
+    s = np.linspace(0, length, MANY)
+    shear = limit * np.where(s < sticks, np.cosh(b * s) / np.cosh(b * sticks), 1.0)
+    traction = {"n": (s, np.full_like(s, -limit / mu)), "t": (s, shear)}
+    first = {"force": force[0], "displacement": moved[0]}
+    bound = (limit * length, "$\\mu p L$: no equilibrium above")
+    return Exact(curve, traction, [(first, "the pulled end slips")], [bound])
+
+
+SOLUTIONS = {"tension": tension, "friction_block": friction_block, "pull_bar": pull_bar}
