@@ -20,6 +20,8 @@ import meshio
 import numpy as np
 import pyvista
 
+from statics import check_balance
+
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6}
 SUBDOMAIN_CELLS = {"stress": 6, "principal_stress": 3}
@@ -36,9 +38,9 @@ MIDPLANE_POINTS = {"arc_length": 1}
 MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 
 HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
+ENERGY_BALANCE = 1e-8  # work − stored − dissipated, of the largest of them
 SUMMARY_KEYS = {"title", "sizes", "solution", "equilibrium", "time", "warnings"}
 STATUSES = range(5)
-BALANCE = 1e-10  # of the largest force; where the solution is iterated, no better than its own residual
 ROUND_OFF = 1e-12  # of the quantity compared
 
 
@@ -157,6 +159,16 @@ def check_midplane(path, faults):
     faults.expect(covered <= total * (1 + 1e-9), f"{path}: the grid is longer than its segments")
 
 
+def supports(scene):
+    """Columns of the reactions: whatever a step fixes, moves or holds."""
+    columns = set()
+    for step in scene["steps"]:
+        for key in ("fix", "displace", "hold"):
+            for group, directions in step.get(key, {}).items():
+                columns.update(f"reaction:{group}:{direction}" for direction in directions)
+    return columns
+
+
 def read_history(path, scene, faults):
     """The rows of history.csv, numbers as numbers."""
     with open(path, newline="") as file:
@@ -168,8 +180,13 @@ def read_history(path, scene, faults):
     faults.expect(
         columns[: len(wanted)] == wanted, f"{path}: columns are {columns}, should begin with {wanted}"
     )
-    for column in columns[len(wanted) :]:
-        faults.expect(column.startswith("reaction:"), f"{path}: unexpected column {column}")
+    reactions = supports(scene)
+    faults.expect(
+        set(columns[len(wanted) : -1]) == reactions,
+        f"{path}: reactions are {columns[len(wanted) : -1]}, should be {sorted(reactions)}",
+    )
+    if not faults.expect(columns[-1:] == ["energy_balance"], f"{path}: the last column is no energy_balance"):
+        return rows
     for number, row in enumerate(rows, 1):
         for column in columns:
             if column == "step":
@@ -179,6 +196,10 @@ def read_history(path, scene, faults):
             except (TypeError, ValueError):
                 row[column] = np.nan
             faults.expect(np.isfinite(row[column]), f"{path}: row {number}, {column} is not a finite number")
+        left = row["energy_balance"]
+        faults.expect(
+            abs(left) <= ENERGY_BALANCE, f"{path}: row {number}, energies leave {left:.1e} of the largest"
+        )
     steps = [step["name"] for step in scene["steps"]]
     seen = list(dict.fromkeys(row.get("step") for row in rows))
     faults.expect(seen == steps[: len(seen)], f"{path}: steps are {seen}, the scene's are {steps}")
@@ -197,51 +218,6 @@ def collection(path, faults):
     faults.expect(len(named) == len(set(named)), f"{path}: names a file twice")
     faults.expect(set(named) == present, f"{path}: names and files differ: {sorted(set(named) ^ present)}")
     return [path.parent / file for file in named if file in present]
-
-
-def resultant(grid, thickness):
-    """Force of side B on side A: the tractions summed over the law points."""
-    normal = grid["normal"][:, :2]
-    tangent = np.column_stack([normal[:, 1], -normal[:, 0]])
-    traction = grid["traction"][:, :1] * normal + grid["traction"][:, 1:] * tangent
-    return thickness * grid["length"] @ traction
-
-
-def sides(interface):
-    """Subdomains of side A and of side B, as the scene names them."""
-    names = []
-    for side in ("side_a", "side_b"):
-        groups = interface.get(side, [])
-        groups = [groups] if isinstance(groups, str) else groups
-        names.append({group.partition(".")[0] for group in groups})
-    return names
-
-
-def check_balance(results, scene, equilibrium, interfaces, allowed, faults):
-    """Forces on the whole model and on each subdomain sum to zero. Returns the largest error of either."""
-    forces = {name: [own["load"], own["reaction"]] for name, own in equilibrium["subdomains"].items()}
-    size = np.abs(list(forces.values())).max(initial=np.finfo(float).tiny)
-
-    def error(parts):
-        return np.abs(np.sum(parts, axis=0)).max() / size
-
-    whole = error([equilibrium["load"], equilibrium["reaction"]])
-    faults.expect(whole <= allowed, f"{results}: loads and reactions leave {whole:.1e} of the largest force")
-    for name, interface in scene.get("interfaces", {}).items():
-        a, b = sides(interface)
-        if name not in interfaces or len(a) != 1 or len(b) != 1:
-            return whole, None  # not stored, or of several subdomains at one side
-        force = resultant(interfaces[name], scene.get("thickness", 1.0))
-        forces[a.pop()].append(force)
-        forces[b.pop()].append(-force)
-    errors = {subdomain: error(parts) for subdomain, parts in forces.items()}
-    for subdomain, rest in errors.items():
-        faults.expect(
-            rest <= allowed,
-            f"{results}: loads, reactions and interface tractions on {subdomain}"
-            f" leave {rest:.1e} of the largest force",
-        )
-    return whole, max(errors.values())
 
 
 def check(results, scene, faults):
@@ -281,11 +257,14 @@ def check(results, scene, faults):
     )
     if faults:
         return ""
-    allowed = max(BALANCE, rows[-1]["residual"]) if rows else BALANCE
     fields = interfaces.get(last, {})
-    whole, part = check_balance(results, scene, summary["equilibrium"], fields, allowed, faults)
-    return f"{len(files)} VTU files, increments: {len(rows)}; loads and reactions balance to {whole:.1e}" + (
-        "" if part is None else f", subdomains with their interfaces to {part:.1e}"
+    residual = rows[-1]["residual"] if rows else 0.0
+    whole, part = check_balance(results, scene, summary["equilibrium"], fields, residual, faults)
+    energy = max((abs(row["energy_balance"]) for row in rows), default=0.0)
+    return (
+        f"{len(files)} VTU files, increments: {len(rows)}; loads and reactions balance to {whole:.1e}, "
+        + ("" if part is None else f"subdomains with their interfaces to {part:.1e}, ")
+        + f"energies to {energy:.1e}"
     )
 
 
