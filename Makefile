@@ -3,8 +3,9 @@
 #   geo/<scene>/*.geo, scene.json ──midplane──► results/<scene>/ ──check_outputs.py──► ──draw.py──► pictures/
 #
 # Another scene file in the same folder, such as geo/cantilever/pointwise.json, is a variant: its results go to
-# results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json are no scenes. Options for
-# the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args.
+# results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json or *path.json are no scenes.
+# Options for the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args, those for its history, if
+# that is to be drawn, in geo/<scene>/history.args.
 
 .SUFFIXES:
 .DEFAULT_GOAL := all
@@ -16,25 +17,31 @@ PYTHON := .venv/bin/python
 
 SCENES := $(patsubst geo/%/scene.json,%,$(wildcard geo/*/scene.json))
 # variants $1: names of the results of a scene's other scene files
-variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json,$(wildcard geo/$1/*.json)))
+variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json %path.json,$(wildcard geo/$1/*.json)))
 
 all: $(SCENES) law  ## build, solve every scene of the gallery, check the results, draw the pictures
 	@echo "up to date: results/<scene>/, its pictures in results/<scene>/pictures/"
 
+DRAWING := $(addprefix pipeline/,draw.py traction.py history.py exact.py page.py)
+# beside $1: scene, $2: results to show beside those of the scene
+beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
+
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
-results/$1/.solved: $(filter-out %/draw.args,$(wildcard geo/$2/*)) $(MIDPLANE) | tools
+results/$1/.solved: $(filter-out %.args,$(wildcard geo/$2/*)) $(MIDPLANE) | tools
 	$(MIDPLANE) run $3 -o results/$1
 	@touch $$@
 
-results/$1/.checked: results/$1/.solved pipeline/check_outputs.py $(VENV)
+results/$1/.checked: results/$1/.solved pipeline/check_outputs.py pipeline/statics.py $(VENV)
 	$(PYTHON) pipeline/check_outputs.py $3 results/$1
 	@touch $$@
 
 results/$1/.drawn: results/$1/.checked $(patsubst %,results/%/.checked,$4)
-results/$1/.drawn: pipeline/draw.py pipeline/page.py $(wildcard geo/$2/draw.args)
-	$(PYTHON) pipeline/draw.py $3 results/$1 \
-	    $(foreach run,$4,--compare $(run:$2_%=%)=results/$(run)) $(addprefix @,$(wildcard geo/$2/draw.args))
+results/$1/.drawn: $(DRAWING) $(wildcard geo/$2/*.args)
+	$(PYTHON) pipeline/draw.py $3 results/$1 $(call beside,$2,$4) \
+	    $(addprefix @,$(wildcard geo/$2/draw.args)) $(if $(filter-out $2,$1),--label=$(1:$2_%=%))
+	$(if $(and $(filter $2,$1),$(wildcard geo/$2/history.args)),\
+	    $(PYTHON) pipeline/history.py $3 results/$1 $(call beside,$2,$4) @geo/$2/history.args)
 	@touch $$@
 endef
 
@@ -48,11 +55,22 @@ $(call results,$(variant),$1,geo/$1/$(variant:$1_%=%).json,))
 endef
 $(foreach name,$(SCENES),$(eval $(call scene,$(name))))
 
+# Example 2 at several pressures, over the curves of one point of its law
+shear: results/shear/.example2
+results/shear/.example2: results/shear/.checked results/shear_as_printed/.checked geo/shear/path.json
+results/shear/.example2: pipeline/example2.py pipeline/history.py pipeline/page.py
+	$(PYTHON) pipeline/example2.py $(MIDPLANE) geo/shear/path.json results/shear \
+	    geo/shear/scene.json geo/shear/as_printed.json
+	for run in results/shear/scene_* results/shear/as_printed_*; do \
+	    $(PYTHON) pipeline/check_outputs.py geo/shear/scene.json $$run || exit; \
+	done
+	@touch $@
+
 law: results/law/shear.png  ## drive one point of the cracking law along geo/shear/path.json and draw it
-results/law/shear.png: geo/shear/law.json geo/shear/path.json pipeline/law_path.py $(MIDPLANE) $(VENV)
+results/law/shear.png: geo/shear/scene.json geo/shear/path.json pipeline/law_path.py $(MIDPLANE) $(VENV)
 	@mkdir -p results/law
-	$(MIDPLANE) law geo/shear/law.json joint geo/shear/path.json --tolerance 1e-6 > results/law/shear.csv
-	$(PYTHON) pipeline/law_path.py results/law/shear.csv --scene geo/shear/law.json --interface joint -o $@
+	$(MIDPLANE) law geo/shear joint geo/shear/path.json --tolerance 1e-6 > results/law/shear.csv
+	$(PYTHON) pipeline/law_path.py results/law/shear.csv --scene geo/shear/scene.json --interface joint -o $@
 
 $(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
 	cargo build --release --locked
@@ -91,6 +109,9 @@ docs: $(SCENES) law   ## renew the pictures of the README
 	cp results/compression/pictures/principal_stress.png docs/compression_stress.png
 	cp results/cantilever/pictures/traction_joint.png docs/cantilever_traction.png
 	cp results/law/shear.png docs/law_shear.png
+	cp results/shear/pictures/example2.png docs/shear_example2.png
+	cp results/tension/pictures/history.png docs/tension_history.png
+	cp results/friction_block/pictures/traction_joint.png docs/friction_block_traction.png
 
 clean:            ## remove everything made here: results, build, Python environment
 	rm -rf results .venv
@@ -98,9 +119,9 @@ clean:            ## remove everything made here: results, build, Python environ
 
 help:             ## this list
 	@echo "make [target]; without one: all"
-	@sed -nE 's/^([a-z]+):[^#]*## /  \1\t/p' Makefile | expand -t 12
+	@sed -nE 's/^([a-z]+):[^#]*## /  \1\t/p' Makefile | expand -t 18
 	@for name in $(SCENES); do \
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
-	done | expand -t 16
+	done | expand -t 18
 
 .PHONY: all tools build test bench law verify lint docs clean help
