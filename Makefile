@@ -110,7 +110,7 @@ docs: $(SCENES) law   ## renew the pictures of the README
 	cp results/cantilever/pictures/traction_joint.png docs/cantilever_traction.png
 	cp results/law/shear.png docs/law_shear.png
 	cp results/shear/pictures/example2.png docs/shear_example2.png
-	cp results/tension/pictures/history.png docs/tension_history.png
+	cp results/shear_box/pictures/traction_joint.png docs/shear_box_traction.png
 	cp results/friction_block/pictures/traction_joint.png docs/friction_block_traction.png
 
 clean:            ## remove everything made here: results, build, Python environment

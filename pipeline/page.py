@@ -48,6 +48,7 @@ LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.25, 0.62, 0.5  # margins around it
 BAR = 0.75  # more room on the right, for a colour bar
 KEY = 0.3  # more room below, for a key
 NARROWEST = 4.5  # of a heading
+LOWEST = 1.3  # of a colour bar
 
 FINE = 0.08  # cells smaller than this get paler edges
 OVERSAMPLE = 2  # rendered pixels per printed pixel, averaged on the page
@@ -71,6 +72,8 @@ class Page:
     def __init__(self, bounds, title, subtitle, bar=0.0, key=0.0):
         (x0, x1), (y0, y1) = bounds
         self.inch = max((x1 - x0) / WIDTH, (y1 - y0) / HEIGHT)  # length that one inch stands for
+        air = max(0.0, LOWEST * self.inch - (y1 - y0)) / 2
+        y0, y1 = y0 - air, y1 + air
         width, height = (x1 - x0) / self.inch, (y1 - y0) / self.inch
         self.size = (LEFT + max(width, NARROWEST - bar) + bar + RIGHT, key + BOTTOM + height + TOP)
         self.box = (LEFT, key + BOTTOM, width, height)
@@ -114,7 +117,8 @@ class Page:
         left, bottom, width, height = self.box
         axis = self.place(left + width + 0.1, bottom, 0.13, height)
         scale = plt.cm.ScalarMappable(plt.Normalize(levels[0], levels[-1]), colours)
-        bar = self.figure.colorbar(scale, cax=axis, label=label, ticks=levels, format="{x:.12g}")
+        ticks = levels[:: math.ceil(0.15 * len(levels) / height)]
+        bar = self.figure.colorbar(scale, cax=axis, label=label, ticks=ticks, format="{x:.12g}")
         bar.outline.set_visible(False)
         axis.tick_params(length=0)
 

@@ -12,8 +12,8 @@
 
 DefineConstant[ width  = {1.0, Name "Width [m]"} ];
 DefineConstant[ height = {0.5, Name "Height [m]"} ];
-DefineConstant[ edges  = {36, Name "Edges along the joint"} ];
-DefineConstant[ rows   = {18, Name "Rows of elements over the height"} ];
+DefineConstant[ edges  = {84, Name "Edges along the joint"} ];
+DefineConstant[ rows   = {42, Name "Rows of elements over the height"} ];
 
 Point(1) = {0, -height, 0};
 Point(2) = {width, -height, 0};

@@ -12,8 +12,8 @@
 
 DefineConstant[ width  = {1.0, Name "Width [m]"} ];
 DefineConstant[ height = {0.5, Name "Height [m]"} ];
-DefineConstant[ edges  = {24, Name "Edges along the joint"} ];
-DefineConstant[ rows   = {12, Name "Rows of elements over the height"} ];
+DefineConstant[ edges  = {56, Name "Edges along the joint"} ];
+DefineConstant[ rows   = {28, Name "Rows of elements over the height"} ];
 
 Point(1) = {0, 0, 0};
 Point(2) = {width, 0, 0};
