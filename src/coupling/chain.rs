@@ -1,4 +1,4 @@
-//! The edges of one side in order: a chain.
+//! The edges of one side in order: a chain of one or more runs, each open or closed.
 //!
 //! ```text
 //!   ends   0 ──── 1 ─────── 2 ── 3        with mid-nodes on quadratic edges
@@ -6,115 +6,259 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Edge;
+use crate::shape::{lagrange2, lagrange3};
 
-/// The edges of one side, as the mesh gives them: each with its body on the left.
+/// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<'a> {
     /// How messages call it, such as `lower.top`.
     pub name: &'a str,
-    /// Coordinates of the mesh.
+    /// Coordinates of its mesh.
     pub points: &'a [[f64; 2]],
     /// The edges in any order.
     pub edges: &'a [Edge],
+    /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
+    pub corners: &'a [usize],
+    /// What the coupling adds to the node numbers of the mesh: the first node of its body in the model.
+    pub first: usize,
 }
 
-/// An open chain of edges.
+/// The edges of a side in order, run after run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Point numbers: the edge ends in order, one more than edges, then the mid-nodes of quadratic edges in order.
+    /// Node numbers in the model: the edge ends in order, run after run, then the mid-nodes in order.
     pub nodes: Vec<usize>,
-    /// Coordinates of the nodes.
+    /// Coordinates of the nodes from the origin of the mid-plane.
     pub points: Vec<[f64; 2]>,
+    /// Places in `nodes` of start and end of every edge.
+    pub ends: Vec<[usize; 2]>,
     /// For every edge the place of its mid-node in `nodes`, if it has one.
     pub mids: Vec<Option<usize>>,
+    /// The connected lines of edges.
+    pub runs: Vec<Run>,
+    /// For every edge end whether the geometry may be kinked there.
+    pub(super) corners: Vec<Corner>,
+}
+
+/// Edges that follow each other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// Numbers of the edges.
+    pub edges: std::ops::Range<usize>,
+    /// True if the last edge ends where the first one starts.
+    pub closed: bool,
+}
+
+/// What is known about a node of a side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Corner {
+    /// It lies on a point of the geometry.
+    Yes,
+    /// It does not.
+    No,
+    /// The mesh does not tell.
+    Unknown,
+}
+
+/// An edge on its way into a chain.
+struct Link {
+    start: usize,
+    end: usize,
+    mid: Option<usize>,
+    x: [[f64; 2]; 3],
+    corner: Corner,
+}
+
+/// Which way a chain runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Body {
+    /// As the mesh gives it: the body on the left of the chain.
+    Left,
+    /// The other way: the body on the right.
+    Right,
 }
 
 impl Chain {
-    /// Orders the edges of a side; the body lies on the left of the chain.
-    pub fn order(interface: &str, side: Side) -> Result<Chain> {
+    /// Orders the edges of a side, coordinates from `origin`.
+    pub(super) fn order(interface: &str, curves: &[Side], body: Body, origin: [f64; 2]) -> Result<Chain> {
+        let names = names(curves);
         let refuse =
             |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
-        let place = |node: usize| format!("({}, {})", side.points[node][0], side.points[node][1]);
-        if let Some(edge) = side.edges.iter().find(|edge| !edge.boundary) {
-            let what = format!("{} has an edge inside its body, near {}", side.name, place(edge.nodes[0]));
-            return Err(refuse(what, "a side lies on the boundary of its subdomain"));
+        let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
+        for curve in curves {
+            for edge in curve.edges {
+                let [x, y] = curve.points[edge.nodes[0]];
+                if !edge.boundary {
+                    let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
+                    return Err(refuse(what, "a side lies on the boundary of its subdomain"));
+                }
+                links.push(Link::new(curve, edge, body, origin));
+            }
         }
-        // edges by their start node: the chain follows from each end to the edge that starts there
-        let mut by_start: Vec<[usize; 3]> = side.edges.iter().map(|edge| edge.nodes).collect();
-        by_start.sort_unstable();
-        by_start.dedup();
-        let mut by_end: Vec<usize> = by_start.iter().map(|edge| edge[1]).collect();
-        by_end.sort_unstable();
-        let branch = by_start.windows(2).find(|pair| pair[0][0] == pair[1][0]).map(|pair| pair[0][0]);
-        let merge = by_end.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
-        if let Some(node) = branch.or(merge) {
-            let what = format!("{} branches at {}", side.name, place(node));
-            return Err(refuse(what, "a side is one line of edges"));
+        links.sort_unstable_by_key(|link| (link.start, link.end));
+        links.dedup_by_key(|link| (link.start, link.end)); // a curve that is listed twice
+        let mut ends: Vec<(usize, [f64; 2])> = links.iter().map(|link| (link.end, link.x[1])).collect();
+        ends.sort_unstable_by_key(|&(node, _)| node);
+        let branch = links.windows(2).find(|pair| pair[0].start == pair[1].start).map(|pair| pair[0].x[0]);
+        let merge = ends.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].1);
+        if let Some([x, y]) = branch.or(merge) {
+            let what = format!("{names} branches at ({}, {})", x + origin[0], y + origin[1]);
+            return Err(refuse(what, "no more than two edges of a side meet at a node"));
         }
-        let starts: Vec<&[usize; 3]> =
-            by_start.iter().filter(|edge| by_end.binary_search(&edge[0]).is_err()).collect();
-        let Some(first) = starts.first() else {
-            return Err(refuse(format!("{} is a closed loop", side.name), "join open lines"));
-        };
-        if let Some(second) = starts.get(1) {
-            let places = format!("{} and at {}", place(first[0]), place(second[0]));
-            let what = format!("{} is in {} pieces, that start at {places}", side.name, starts.len());
-            return Err(refuse(what, "a side is one connected line: make an interface of every piece"));
-        }
-        let mut ends = vec![first[0]];
+        // open runs from their first edges, then what is left: closed ones
+        let follows = |link: &Link| ends.binary_search_by_key(&link.start, |&(node, _)| node).is_ok();
+        let firsts = (0..links.len()).filter(|&i| !follows(&links[i]));
+        let mut used = vec![false; links.len()];
+        let mut chain = Chain::empty();
         let mut mids = Vec::new();
-        while let Ok(i) = by_start.binary_search_by_key(&ends[ends.len() - 1], |edge| edge[0]) {
-            let [_, end, mid] = by_start[i];
-            ends.push(end);
-            mids.push((mid != end).then_some(mid));
+        for i in firsts.chain(0..links.len()) {
+            if !used[i] {
+                chain.walk(&links, &mut used, i, &mut mids);
+            }
         }
-        Ok(Chain::from_parts(side.points, ends, mids))
+        for mid in mids {
+            let place = mid.map(|(node, x)| {
+                chain.nodes.push(node);
+                chain.points.push(x);
+                chain.nodes.len() - 1
+            });
+            chain.mids.push(place);
+        }
+        Ok(chain)
     }
 
-    /// From the edge ends and the mid-node of every edge, in order.
-    fn from_parts(points: &[[f64; 2]], ends: Vec<usize>, mids: Vec<Option<usize>>) -> Chain {
-        let mut nodes = ends;
-        let mids = mids
-            .into_iter()
-            .map(|mid| {
-                mid.map(|mid| {
-                    nodes.push(mid);
-                    nodes.len() - 1
-                })
-            })
-            .collect();
-        let points = nodes.iter().map(|&node| points[node]).collect();
-        Chain { nodes, points, mids }
+    fn empty() -> Chain {
+        let (nodes, points, ends) = (Vec::new(), Vec::new(), Vec::new());
+        Chain { nodes, points, ends, mids: Vec::new(), runs: Vec::new(), corners: Vec::new() }
     }
 
-    /// The same chain walked the other way.
-    pub(super) fn reversed(mut self) -> Chain {
-        let (ends, all) = (self.edges() + 1, self.nodes.len());
-        for range in [0..ends, ends..all] {
-            self.nodes[range.clone()].reverse();
-            self.points[range].reverse();
+    /// Adds the run that starts with a link.
+    fn walk(
+        &mut self,
+        links: &[Link],
+        used: &mut [bool],
+        first: usize,
+        mids: &mut Vec<Option<(usize, [f64; 2])>>,
+    ) {
+        let (first_edge, first_place) = (self.ends.len(), self.nodes.len());
+        let mut add = |node: usize, x: [f64; 2], corner: Corner| {
+            self.nodes.push(node);
+            self.points.push(x);
+            self.corners.push(corner);
+        };
+        add(links[first].start, links[first].x[0], links[first].corner);
+        let mut next = Some(first);
+        let mut place = first_place;
+        let mut closed = false;
+        while let Some(i) = next {
+            let link = &links[i];
+            used[i] = true;
+            mids.push(link.mid.map(|mid| (mid, link.x[2])));
+            next = links.binary_search_by_key(&link.end, |link| link.start).ok();
+            closed = next == Some(first);
+            if closed {
+                self.ends.push([place, first_place]);
+                break;
+            }
+            add(link.end, link.x[1], next.map_or(Corner::Yes, |next| links[next].corner));
+            self.ends.push([place, place + 1]);
+            place += 1;
         }
-        self.mids.reverse();
-        for mid in self.mids.iter_mut().flatten() {
-            *mid = ends + all - 1 - *mid;
+        self.runs.push(Run { edges: first_edge..self.ends.len(), closed });
+    }
+
+    /// The same edges walked the other way.
+    pub(super) fn reversed(&self) -> Chain {
+        let mut chain = self.clone();
+        for run in &chain.runs {
+            chain.ends[run.edges.clone()].reverse();
+            chain.mids[run.edges.clone()].reverse();
         }
-        self
+        chain.ends.iter_mut().for_each(|ends| ends.reverse());
+        chain
     }
 
     /// Number of edges.
     pub fn edges(&self) -> usize {
-        self.mids.len()
+        self.ends.len()
     }
 
     /// Places in `nodes` of an edge's start, end and, if it is quadratic, mid-node.
     pub(super) fn edge(&self, e: usize) -> impl Iterator<Item = usize> {
-        [Some(e), Some(e + 1), self.mids[e]].into_iter().flatten()
+        let [start, end] = self.ends[e];
+        [Some(start), Some(end), self.mids[e]].into_iter().flatten()
     }
 
     /// True if every edge has a mid-node.
     pub(super) fn is_quadratic(&self) -> bool {
         self.mids.iter().all(Option::is_some)
     }
+
+    /// Distance of the ends of an edge [length].
+    pub fn chord(&self, e: usize) -> f64 {
+        let [p, q] = self.ends[e].map(|place| self.points[place]);
+        (q[0] - p[0]).hypot(q[1] - p[1])
+    }
+
+    /// Shape functions of an edge and their derivatives at ξ: start, end, mid-node.
+    pub(super) fn functions(&self, e: usize, xi: f64) -> ([f64; 3], [f64; 3]) {
+        if self.mids[e].is_some() {
+            return lagrange3(xi);
+        }
+        let (n, dn) = lagrange2(xi);
+        ([n[0], n[1], 0.0], [dn[0], dn[1], 0.0])
+    }
+
+    /// The point of an edge at ξ.
+    pub(super) fn point(&self, e: usize, xi: f64) -> [f64; 2] {
+        self.combine(e, self.functions(e, xi).0)
+    }
+
+    /// dx/dξ of an edge at ξ.
+    pub(super) fn derivative(&self, e: usize, xi: f64) -> [f64; 2] {
+        self.combine(e, self.functions(e, xi).1)
+    }
+
+    fn combine(&self, e: usize, factors: [f64; 3]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for (place, factor) in self.edge(e).zip(factors) {
+            for d in 0..2 {
+                sum[d] += factor * self.points[place][d];
+            }
+        }
+        sum
+    }
+}
+
+impl Link {
+    fn new(curve: &Side, edge: &Edge, body: Body, origin: [f64; 2]) -> Link {
+        let [mut start, mut end, mid] = edge.nodes;
+        let mid = (mid != end).then_some(mid);
+        if body == Body::Right {
+            (start, end) = (end, start);
+        }
+        let corner = match curve.corners {
+            [] => Corner::Unknown,
+            corners if corners.binary_search(&start).is_ok() => Corner::Yes,
+            _ => Corner::No,
+        };
+        let x = [start, end, mid.unwrap_or(end)].map(|node| {
+            let p = curve.points[node];
+            [p[0] - origin[0], p[1] - origin[1]]
+        });
+        Link {
+            start: curve.first + start,
+            end: curve.first + end,
+            mid: mid.map(|m| curve.first + m),
+            x,
+            corner,
+        }
+    }
+}
+
+/// Names of the curves of a side, for messages.
+pub(super) fn names(curves: &[Side]) -> String {
+    curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
@@ -123,8 +267,9 @@ mod tests {
 
     const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]];
 
-    fn side(edges: &[Edge]) -> Side<'_> {
-        Side { name: "lower.top", points: &POINTS, edges }
+    fn order(points: &[[f64; 2]], edges: &[Edge], body: Body) -> Result<Chain> {
+        let side = Side { name: "lower.top", points, edges, corners: &[], first: 0 };
+        Chain::order("joint", &[side], body, [0.0; 2])
     }
 
     fn edge(start: usize, end: usize) -> Edge {
@@ -132,9 +277,16 @@ mod tests {
     }
 
     #[test]
-    fn edges_in_any_order_become_one_chain() {
+    fn edges_in_any_order_become_runs() {
         let edges = [edge(1, 2), edge(2, 3), edge(0, 1)];
-        assert_eq!(Chain::order("joint", side(&edges)).unwrap().nodes, [0, 1, 2, 3]);
+        assert_eq!(order(&POINTS, &edges, Body::Left).unwrap().nodes, [0, 1, 2, 3]);
+        assert_eq!(order(&POINTS, &edges, Body::Right).unwrap().nodes, [3, 2, 1, 0]);
+        let two = order(&POINTS, &[edge(2, 3), edge(0, 1)], Body::Left).unwrap();
+        assert_eq!((two.nodes.as_slice(), two.runs.len()), ([0, 1, 2, 3].as_slice(), 2));
+        let loop_and_line = [edge(1, 2), edge(2, 1), edge(0, 3)];
+        let chain = order(&POINTS, &loop_and_line, Body::Left).unwrap();
+        assert_eq!((chain.runs[0].closed, chain.runs[1].closed), (false, true));
+        assert_eq!(chain.ends, [[0, 1], [2, 3], [3, 2]]);
     }
 
     #[test]
@@ -142,8 +294,8 @@ mod tests {
         let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.5, 0.0], [1.5, 0.0]];
         let quadratic = |nodes: [usize; 3]| Edge { nodes, cell: 0, boundary: true };
         let edges = [quadratic([1, 2, 4]), quadratic([0, 1, 3])];
-        let chain = Chain::order("joint", Side { name: "s", points: &points, edges: &edges }).unwrap();
-        for chain in [chain.clone(), chain.reversed()] {
+        for body in [Body::Left, Body::Right] {
+            let chain = order(&points, &edges, body).unwrap();
             for e in 0..2 {
                 let x: Vec<f64> = chain.edge(e).map(|i| chain.points[i][0]).collect();
                 assert_eq!(x[2], 0.5 * (x[0] + x[1]));
@@ -152,14 +304,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_line_is_refused_with_its_place() {
-        for (edges, expected) in [
-            (vec![edge(0, 1), edge(0, 2)], "branches at (0, 0)"),
-            (vec![edge(0, 1), edge(2, 3)], "in 2 pieces"),
-            (vec![edge(0, 1), edge(1, 2), edge(2, 0)], "closed loop"),
-        ] {
-            let message = Chain::order("joint", side(&edges)).unwrap_err().to_string();
-            assert!(message.contains(expected), "{message}");
-        }
+    fn a_branch_is_refused_with_its_place() {
+        let message = order(&POINTS, &[edge(0, 1), edge(0, 2)], Body::Left).unwrap_err().to_string();
+        assert!(message.contains("branches at (0, 0)"), "{message}");
     }
 }

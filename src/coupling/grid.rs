@@ -1,78 +1,103 @@
-//! The mid-plane's own grid: as fine as the locally coarser side.
+//! The mid-plane's own grid: as fine as the locally coarser side, piece by piece.
 //!
 //! From the current node the next is max(next A node, next B node). Every cell takes in at least one further node of
 //! each side, so there are at most min(edges A, edges B) cells. The walk starts where the first edges are longer, so
 //! that neither labels nor file order matter; on a tie at the end with smaller x, then y.
 
-use super::Midplane;
+use super::midplane::Piece;
+use super::{Midplane, vector::*};
 
-/// "After" means farther than this. Of the common length.
+/// "After" means farther than this. Of the length of the piece.
 const AFTER: f64 = 1e-9;
 
-/// Arc lengths of the grid's nodes, ascending, from 0 to the length of C.
-pub(super) fn nodes(midplane: &Midplane) -> Vec<f64> {
-    let length = midplane.length;
-    let [a, b] = midplane.ends().map(|s| within(s, length));
-    if starts_at_the_far_end(midplane, &a, &b) {
-        let mirror = |s: &[f64]| -> Vec<f64> { s.iter().rev().map(|&x| length - x).collect() };
-        let mut nodes = mirror(&walk(&mirror(&a), &mirror(&b), length));
-        // the mirror image of a node is that node to round-off only: take the node itself
-        for s in &mut nodes {
-            if let Some(&node) = a.iter().chain(&b).find(|&&node| (node - *s).abs() <= 1e-14 * length) {
-                *s = node;
-            }
-        }
-        nodes
+/// A node of A, of B or of both, at its arc length.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    s: f64,
+    of: [bool; 2],
+}
+
+/// Arc lengths of the grid's nodes on a piece, ascending, from its start to its end.
+pub(super) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
+    let segments = &c.segments[piece.segments.clone()];
+    let [start, end] = c.span(piece);
+    let length = end - start;
+    // the ends of the common length count as nodes of both sides
+    let mut cuts = vec![Cut { s: start, of: [true; 2] }];
+    cuts.extend(segments.iter().map(|g| Cut { s: g.end, of: [g.xi_a[1] == 1.0, g.xi_b[1] == 1.0] }));
+    let last = cuts.len() - 1;
+    cuts[last].of = [true; 2];
+    if starts_at_the_far_end(c, piece, &cuts, length) {
+        let mirrored: Vec<Cut> = cuts.iter().rev().map(|cut| Cut { s: end - cut.s, of: cut.of }).collect();
+        walk(&mirrored, length).into_iter().rev().map(|i| cuts[last - i].s).collect()
     } else {
-        walk(&a, &b, length)
+        let from_start: Vec<Cut> = cuts.iter().map(|cut| Cut { s: cut.s - start, of: cut.of }).collect();
+        walk(&from_start, length).into_iter().map(|i| cuts[i].s).collect()
     }
 }
 
-/// Nodes of one side on the common length, whose ends count as nodes of both sides.
-fn within(s: &[f64], length: f64) -> Vec<f64> {
-    let inner = s.iter().copied().filter(|&x| x > AFTER * length && x < length * (1.0 - AFTER));
-    std::iter::once(0.0).chain(inner).chain(std::iter::once(length)).collect()
-}
-
-fn walk(a: &[f64], b: &[f64], length: f64) -> Vec<f64> {
-    let after =
-        |side: &[f64], s: f64| side[side.partition_point(|&x| x <= s + AFTER * length).min(side.len() - 1)];
-    let mut nodes = vec![0.0];
-    let mut s = 0.0;
-    while s < length * (1.0 - AFTER) {
-        s = after(a, s).max(after(b, s));
-        nodes.push(s);
+/// Numbers of the cuts that become nodes of the grid; s counts from the first cut.
+fn walk(cuts: &[Cut], length: f64) -> Vec<usize> {
+    let last = cuts.len() - 1;
+    // the next node of a side behind a place; searched from where the last search ended
+    let after = |side: usize, from: usize, s: f64| {
+        let behind = |i: &usize| cuts[*i].of[side] && cuts[*i].s > s + AFTER * length;
+        (from..last).find(behind).unwrap_or(last)
+    };
+    let mut nodes = vec![0];
+    let (mut next, mut at) = ([0; 2], 0);
+    while cuts[at].s < length * (1.0 - AFTER) {
+        next = [0, 1].map(|side| after(side, next[side], cuts[at].s));
+        at = next[0].max(next[1]);
+        nodes.push(at);
     }
+    nodes.pop();
+    nodes.push(last);
     // a short last cell joins its neighbour, unless it is a whole edge of both sides
     if let [.., before, start, end] = nodes[..] {
-        let is_edge =
-            |side: &[f64]| side.len() >= 2 && (side[side.len() - 2] - start).abs() <= AFTER * length;
-        if end - start < 0.5 * (start - before) && !(is_edge(a) && is_edge(b)) {
+        let [s_before, s_start, s_end] = [before, start, end].map(|i| cuts[i].s);
+        let before_last = |side: usize| (0..last).rev().find(|&i| cuts[i].of[side]).unwrap_or(0);
+        let is_edge = |side: usize| (cuts[before_last(side)].s - s_start).abs() <= AFTER * length;
+        if s_end - s_start < 0.5 * (s_start - s_before) && !(is_edge(0) && is_edge(1)) {
             nodes.remove(nodes.len() - 2);
         }
     }
     nodes
 }
 
-/// True if the walk starts at the end of C: compares the edges from both ends inwards, the larger of A and B first.
-fn starts_at_the_far_end(midplane: &Midplane, a: &[f64], b: &[f64]) -> bool {
-    let edge = |side: &[f64], i: usize, far: bool| {
-        let n = side.len() - 1;
+/// True if the walk starts at the end of the piece: compares the edges from both ends inwards, the larger of A and B
+/// first.
+fn starts_at_the_far_end(c: &Midplane, piece: &Piece, cuts: &[Cut], length: f64) -> bool {
+    let places = |side: usize| -> Vec<f64> {
+        // cuts that are one node to the walk are one here
+        let mut s: Vec<f64> = cuts.iter().filter(|cut| cut.of[side]).map(|cut| cut.s).collect();
+        s.dedup_by(|later, earlier| *later - *earlier <= AFTER * length);
+        s
+    };
+    let sides = [places(0), places(1)];
+    let edge = |s: &[f64], i: usize, far: bool| {
+        let n = s.len() - 1;
         if i >= n {
             0.0
         } else if far {
-            side[n - i] - side[n - i - 1]
+            s[n - i] - s[n - i - 1]
         } else {
-            side[i + 1] - side[i]
+            s[i + 1] - s[i]
         }
     };
-    for i in 0..a.len().max(b.len()) {
-        let near = edge(a, i, false).max(edge(b, i, false));
-        let far = edge(a, i, true).max(edge(b, i, true));
-        if (near - far).abs() > AFTER * midplane.length {
+    for i in 0..sides[0].len().max(sides[1].len()) {
+        let [near, far] = [false, true].map(|far| edge(&sides[0], i, far).max(edge(&sides[1], i, far)));
+        if (near - far).abs() > AFTER * length {
             return far > near;
         }
     }
-    let [dx, dy] = midplane.tangent;
-    if dx.abs() > AFTER { dx < 0.0 } else { dy < 0.0 }
+    // a closed piece starts and ends at one point: compare the next ones
+    let segments = &piece.segments;
+    let [near, far] = if piece.closed {
+        [c.spot(segments.start, 1.0).position, c.spot(segments.end - 1, -1.0).position]
+    } else {
+        [c.spot(segments.start, -1.0).position, c.spot(segments.end - 1, 1.0).position]
+    };
+    let [dx, dy] = minus(far, near);
+    if dx.abs() > AFTER * length { dx < 0.0 } else { dy < 0.0 }
 }

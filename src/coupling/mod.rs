@@ -16,18 +16,24 @@
 //! coefficients (M = I, N = I). `projected` carries the jump on a grid of the mid-plane, as fine as the locally coarser
 //! side, and projects in L2; a matched interface is the classical zero-thickness element in both.
 
+mod angle;
 mod banded;
 mod chain;
 mod csr;
 mod grid;
 mod jump;
 mod midplane;
+mod pair;
+mod parts;
 mod pointwise;
 mod projected;
+mod refusal;
+mod seam;
+mod vector;
 
-pub use chain::{Chain, Side};
+pub use chain::{Chain, Run, Side};
 pub use csr::Csr;
-pub use midplane::{Midplane, Segment};
+pub use midplane::{Midplane, Piece, Segment, Spot};
 
 use crate::error::Result;
 
@@ -51,20 +57,41 @@ pub enum Points {
     Lobatto,
 }
 
+/// Whether the sides may lie apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gap {
+    /// They lie on each other, up to what chords of one curve differ by.
+    Closed,
+    /// The distance between them is meant: the law sees it.
+    Open,
+}
+
+/// How to couple two sides.
+#[derive(Debug, Clone, Copy)]
+pub struct Scheme {
+    /// How the sides are joined.
+    pub kind: Kind,
+    /// Where the law acts within its interval.
+    pub points: Points,
+    /// Whether the sides may lie apart.
+    pub gap: Gap,
+}
+
 /// The joint as the solver sees it, with the geometry it came from.
 #[derive(Debug, Clone)]
 pub struct Coupling {
     /// Displacement components per node.
     pub components: usize,
-    /// Points of A's mesh that the coupling touches; the first columns of `jump`.
+    /// Nodes of side A in the model; the first columns of `jump`.
     pub nodes_a: Vec<usize>,
-    /// Points of B's mesh; the columns after those of A.
+    /// Nodes of side B in the model; the columns after those of A.
     pub nodes_b: Vec<usize>,
     /// G: row `components · coefficient + component`, column `components · node + component`.
     pub jump: Csr,
     /// Where the law acts, in order along C.
     pub points: Vec<LawPoint>,
-    /// Arc lengths of the grid's nodes from the start of the common length; empty for `pointwise`.
+    /// Arc lengths of the ends of the grid's cells, twice where one piece of C ends and the next begins; empty for
+    /// `pointwise`.
     pub grid: Vec<f64>,
     /// The geometry.
     pub midplane: Midplane,
@@ -75,24 +102,28 @@ pub struct Coupling {
 pub struct LawPoint {
     /// Length of C that it stands for [length].
     pub weight: f64,
-    /// Arc length along C from the start of the common length [length].
+    /// Arc length along C [length].
     pub s: f64,
     /// Its place in the plane.
     pub position: [f64; 2],
     /// R: rows n and t in x, y.
     pub rotation: [[f64; 2]; 2],
+    /// Distance from A to B along n as the meshes have it; negative where they overlap [length].
+    pub gap: f64,
     /// N: (coefficient, value); unused entries have the value zero.
     pub interpolation: [(usize, f64); 3],
 }
 
 impl Coupling {
-    /// Joins two sides. `name` is the interface's, for messages.
-    pub fn build(name: &str, a: Side, b: Side, kind: Kind, points: Points) -> Result<Coupling> {
-        let midplane = Midplane::build(name, a, b)?;
-        Ok(match kind {
-            Kind::Projected => projected::build(midplane, points, true),
-            Kind::ProjectedLinear => projected::build(midplane, points, false),
-            Kind::Pointwise => pointwise::build(midplane, points),
+    /// Joins two sides, each a list of curves. `name` is the interface's, for messages.
+    ///
+    /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
+    pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
+        let midplane = Midplane::build(name, a, b, scheme.gap)?;
+        Ok(match scheme.kind {
+            Kind::Projected => projected::build(midplane, scheme.points, true),
+            Kind::ProjectedLinear => projected::build(midplane, scheme.points, false),
+            Kind::Pointwise => pointwise::build(midplane, scheme.points),
         })
     }
 

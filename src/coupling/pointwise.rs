@@ -20,14 +20,13 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     let components = 2;
     let mut triplets = Vec::new();
     let mut law_points: Vec<LawPoint> = Vec::new();
-    for segment in &midplane.segments {
-        let half = 0.5 * (segment.end - segment.start);
+    for (i, segment) in midplane.segments.iter().enumerate() {
         let quadratic =
             midplane.a.mids[segment.edge_a].is_some() || midplane.b.mids[segment.edge_b].is_some();
-        for &[xi, weight] in rule(points, quadratic) {
-            let s = segment.start + half * (1.0 + xi);
+        for &[eta, weight] in rule(points, quadratic) {
+            let spot = midplane.spot(i, eta);
             let row = components * law_points.len();
-            jump::entries(&midplane, segment.edge_a, segment.edge_b, s, |entry| {
+            jump::entries(&midplane, segment, &spot, |entry| {
                 triplets.push((
                     row + entry.component,
                     components * entry.node + entry.direction,
@@ -35,10 +34,11 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
                 ));
             });
             law_points.push(LawPoint {
-                weight: half * weight,
-                s,
-                position: midplane.position(s),
-                rotation: midplane.rotation(),
+                weight: spot.speed * weight,
+                s: segment.start + 0.5 * (segment.end - segment.start) * (1.0 + eta),
+                position: spot.position,
+                rotation: spot.rotation,
+                gap: spot.gap,
                 interpolation: [(law_points.len(), 1.0), (0, 0.0), (0, 0.0)],
             });
         }

@@ -18,50 +18,62 @@ const NEGLIGIBLE: f64 = 1e-17;
 pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -> Coupling {
     let components = 2;
     let quadratic = allow_quadratic && midplane.a.is_quadratic() && midplane.b.is_quadratic();
-    let grid = Grid { ends: grid::nodes(&midplane), quadratic };
-    let (nodes, band) = (grid.nodes(), grid.order());
+    let grid = Grid::new(&midplane, quadratic);
     let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());
 
     // B by rows (grid node, component), M in its band; a quadratic side needs three points also on a linear grid
     let any = midplane.a.mids.iter().chain(&midplane.b.mids).any(Option::is_some);
     let mut b = Vec::new();
-    let mut mass = vec![0.0; (band + 1) * nodes];
-    for segment in &midplane.segments {
-        let half = 0.5 * (segment.end - segment.start);
-        let cell = grid.cell_of(segment.start + half);
-        for &[xi, weight] in if any { GAUSS_3 } else { GAUSS_2 } {
-            let s = segment.start + half * (1.0 + xi);
-            let w = half * weight;
+    let band = grid.band();
+    let mut mass = vec![0.0; (band + 1) * grid.nodes];
+    let mut cell = 0;
+    for (g, segment) in midplane.segments.iter().enumerate() {
+        while 0.5 * (segment.start + segment.end) > grid.cells[cell].end && cell + 1 < grid.cells.len() {
+            cell += 1;
+        }
+        for &[eta, weight] in if any { GAUSS_3 } else { GAUSS_2 } {
+            let spot = midplane.spot(g, eta);
+            let s = segment.start + 0.5 * (segment.end - segment.start) * (1.0 + eta);
+            let w = spot.speed * weight;
             let functions = grid.functions(cell, s);
-            for (i, phi_i) in functions {
-                for (j, phi_j) in functions.into_iter().filter(|&(j, phi)| j <= i && phi != 0.0) {
-                    mass[i * (band + 1) + band + j - i] += w * phi_i * phi_j;
+            for (i, phi_i) in functions.map(|(i, phi)| (grid.row[i], phi)) {
+                for (j, phi_j) in functions.map(|(j, phi)| (grid.row[j], phi)) {
+                    if j <= i && phi_j != 0.0 {
+                        mass[i * (band + 1) + band + j - i] += w * phi_i * phi_j;
+                    }
                 }
             }
-            jump::entries(&midplane, segment.edge_a, segment.edge_b, s, |entry| {
+            jump::entries(&midplane, segment, &spot, |entry| {
                 for (i, phi) in functions.into_iter().filter(|(_, phi)| *phi != 0.0) {
-                    let row = components * i + entry.component;
+                    let row = components * grid.row[i] + entry.component;
                     b.push((row, components * entry.node + entry.direction, w * phi * entry.value));
                 }
             });
         }
     }
-    let b = Csr::from_triplets(components * nodes, width, &b);
-    let jump = solve(&Banded::factor(band, mass), &b, components, nodes);
+    let b = Csr::from_triplets(components * grid.nodes, width, &b);
+    let jump = solve(&Banded::factor(band, mass), &b, components, &grid);
 
     let mut law_points = Vec::new();
-    for cell in 0..grid.ends.len() - 1 {
-        let half = 0.5 * (grid.ends[cell + 1] - grid.ends[cell]);
+    for (i, cell) in grid.cells.iter().enumerate() {
+        let half = 0.5 * (cell.end - cell.start);
+        let first = law_points.len();
         for &[xi, weight] in pointwise::rule(points, quadratic) {
-            let s = grid.ends[cell] + half * (1.0 + xi);
+            let s = cell.start + half * (1.0 + xi);
+            let (g, eta) = midplane.locate(&midplane.pieces[cell.piece], s);
+            let (spot, segment) = (midplane.spot(g, eta), &midplane.segments[g]);
             law_points.push(LawPoint {
-                weight: half * weight,
+                weight: half * weight * spot.speed / (0.5 * (segment.end - segment.start)),
                 s,
-                position: midplane.position(s),
-                rotation: midplane.rotation(),
-                interpolation: grid.functions(cell, s),
+                position: spot.position,
+                rotation: spot.rotation,
+                gap: spot.gap,
+                interpolation: grid.functions(i, s),
             });
         }
+        // the weights of a cell are its length, whatever its curvature
+        let sum: f64 = law_points[first..].iter().map(|point| point.weight).sum();
+        law_points[first..].iter_mut().for_each(|point| point.weight *= 2.0 * half / sum);
     }
     Coupling {
         components,
@@ -69,47 +81,96 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
         nodes_b: midplane.b.nodes.clone(),
         jump,
         points: law_points,
-        grid: grid.ends,
+        grid: grid.ends(),
         midplane,
     }
 }
 
 /// The grid of the mid-plane: linear cells, or quadratic ones with a node in their middle. Nodes are numbered along C.
 struct Grid {
-    ends: Vec<f64>,
+    cells: Vec<Cell>,
     quadratic: bool,
+    nodes: usize,
+    /// Place of every node in the mass matrix: from both ends of a loop in turn, so that its seam does not widen the band.
+    row: Vec<usize>,
+    closed: bool,
+}
+
+/// A cell between two arc lengths.
+struct Cell {
+    start: f64,
+    end: f64,
+    piece: usize,
+    /// Node at its start, its end and, on a quadratic grid, its middle.
+    nodes: [usize; 3],
 }
 
 impl Grid {
-    /// Polynomial order of a cell, which is also the half band width of its mass matrix.
+    fn new(midplane: &Midplane, quadratic: bool) -> Grid {
+        let mut grid = Grid { cells: Vec::new(), quadratic, nodes: 0, row: Vec::new(), closed: false };
+        let order = grid.order();
+        for (p, piece) in midplane.pieces.iter().enumerate() {
+            let ends = grid::nodes(midplane, piece);
+            let first = grid.nodes;
+            let count = order * (ends.len() - 1) + usize::from(!piece.closed);
+            for (i, pair) in ends.windows(2).enumerate() {
+                let node = |k: usize| first + (order * i + k) % count.max(1);
+                let nodes = [node(0), node(order), if quadratic { node(1) } else { node(0) }];
+                grid.cells.push(Cell { start: pair[0], end: pair[1], piece: p, nodes });
+            }
+            let fold = |k: usize| match (piece.closed, 2 * k <= count) {
+                (false, _) => k,
+                (true, true) => (2 * k).saturating_sub(1),
+                (true, false) => 2 * (count - k),
+            };
+            grid.row.extend((0..count).map(|k| first + fold(k)));
+            grid.closed |= piece.closed;
+            grid.nodes += count;
+        }
+        grid
+    }
+
+    /// Polynomial order of a cell.
     fn order(&self) -> usize {
         if self.quadratic { 2 } else { 1 }
     }
 
-    fn nodes(&self) -> usize {
-        self.order() * (self.ends.len() - 1) + 1
+    /// Half band width of the mass matrix.
+    fn band(&self) -> usize {
+        self.order() * if self.closed { 2 } else { 1 }
     }
 
-    /// The cell that holds arc length `s`.
-    fn cell_of(&self, s: f64) -> usize {
-        self.ends.partition_point(|&node| node <= s).clamp(1, self.ends.len() - 1) - 1
+    /// Arc lengths of the ends of all cells; where the grid splits, twice.
+    fn ends(&self) -> Vec<f64> {
+        let mut ends = Vec::with_capacity(self.cells.len() + 1);
+        for (i, cell) in self.cells.iter().enumerate() {
+            if i == 0 || self.cells[i - 1].piece != cell.piece {
+                ends.push(cell.start);
+            }
+            ends.push(cell.end);
+        }
+        ends
     }
 
     /// Nodes and functions of a cell at arc length `s`; on linear cells the third has the value zero.
     fn functions(&self, cell: usize, s: f64) -> [(usize, f64); 3] {
-        let xi = 2.0 * (s - self.ends[cell]) / (self.ends[cell + 1] - self.ends[cell]) - 1.0;
+        let Cell { start, end, nodes, .. } = self.cells[cell];
+        let xi = 2.0 * (s - start) / (end - start) - 1.0;
         if self.quadratic {
             let (n, _) = lagrange3(xi);
-            [(2 * cell, n[0]), (2 * cell + 2, n[1]), (2 * cell + 1, n[2])]
+            [(nodes[0], n[0]), (nodes[1], n[1]), (nodes[2], n[2])]
         } else {
             let (n, _) = lagrange2(xi);
-            [(cell, n[0]), (cell + 1, n[1]), (0, 0.0)]
+            [(nodes[0], n[0]), (nodes[1], n[1]), (0, 0.0)]
         }
     }
 }
 
 /// G = M⁻¹ B, column by column and component by component; what decays to nothing is dropped.
-fn solve(mass: &Banded, b: &Csr, components: usize, nodes: usize) -> Csr {
+fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Grid) -> Csr {
+    let nodes = grid.nodes;
+    let mut node_of = vec![0; nodes];
+    grid.row.iter().enumerate().for_each(|(node, &row)| node_of[row] = node);
     let by_column = b.transposed();
     let mut column = vec![0.0; nodes];
     let mut triplets = Vec::new();
@@ -126,7 +187,7 @@ fn solve(mass: &Banded, b: &Csr, components: usize, nodes: usize) -> Csr {
                 continue;
             }
             for i in mass.solve(&mut column, first, last) {
-                triplets.push((components * i + component, j, column[i]));
+                triplets.push((components * node_of[i] + component, j, column[i]));
                 column[i] = 0.0;
             }
         }

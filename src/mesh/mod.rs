@@ -36,6 +36,8 @@ pub struct Mesh {
     pub points: Vec<[f64; 2]>,
     /// The cells that fill the body.
     pub cells: Cells,
+    /// Points that lie on points of the geometry, ascending; empty if the file does not tell.
+    pub corners: Vec<usize>,
     /// Physical groups by name, in the order of the file.
     pub groups: IndexMap<String, Group>,
 }

@@ -37,7 +37,10 @@ fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, Fault> 
     orient(&mut cells, &content.points, &content.tags[2])?;
     let edges = EdgeTable::new(&cells, content.points.len(), &content.tags[2])?;
     let groups = gather(&content, &cells, &edges, &numbers)?;
-    Ok(Mesh { file: path.to_path_buf(), points: content.points, cells, groups })
+    let kept = content.corners.iter().map(|&node| numbers[node as usize]).filter(|&number| number != UNUSED);
+    let mut corners: Vec<usize> = kept.map(|number| number as usize).collect();
+    corners.sort_unstable();
+    Ok(Mesh { file: path.to_path_buf(), points: content.points, cells, corners, groups })
 }
 
 /// Refuses nodes off the plane z = 0.

@@ -4,6 +4,7 @@ use super::Snapshot;
 use super::vtu::{Array, Data, Grid};
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::principal;
+use crate::coupling::Piece;
 use crate::law;
 
 /// A body: displacement, stress at points and cells, principal stress.
@@ -40,13 +41,27 @@ fn mesh(body: &Body) -> Grid {
 pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
     let points = &joint.coupling.points;
     let n = points.len();
+    // no line from one part of C to another that lies elsewhere
+    let apart = |piece: &&Piece| !piece.follows && piece.segments.start > 0;
+    let segments = &joint.coupling.midplane.segments;
+    let breaks: Vec<f64> = joint
+        .coupling
+        .midplane
+        .pieces
+        .iter()
+        .filter(apart)
+        .map(|p| segments[p.segments.start].start)
+        .collect();
+    let of = |s: f64| breaks.partition_point(|start| *start <= s);
+    let lines: Vec<i64> =
+        (1..n).filter(|&i| of(points[i - 1].s) == of(points[i].s)).map(|i| i as i64).collect();
     let none = vec![law::State::default(); n];
     let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
     Grid {
         points: points.iter().flat_map(|p| [p.position[0], p.position[1], 0.0]).collect(),
-        connectivity: (1..n as i64).flat_map(|i| [i - 1, i]).collect(),
-        offsets: (1..n as i64).map(|i| 2 * i).collect(),
-        types: vec![3; n - 1],
+        connectivity: lines.iter().flat_map(|&i| [i - 1, i]).collect(),
+        offsets: (1..=lines.len() as i64).map(|i| 2 * i).collect(),
+        types: vec![3; lines.len()],
         point_data: vec![
             Array::float("jump", 2, snapshot.jumps[index].iter().flatten().copied()),
             Array::float(
@@ -70,16 +85,18 @@ pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64)
 pub(super) fn midplane(joint: &Joint) -> Grid {
     let midplane = &joint.coupling.midplane;
     let segments = midplane.segments.iter().map(|g| (g.start, g.end, 0, g.edge_a as i64, g.edge_b as i64));
-    let cells = joint.coupling.grid.windows(2).map(|pair| (pair[0], pair[1], 1, -1, -1));
+    let cells = joint.coupling.grid.windows(2).filter(|pair| pair[1] > pair[0]);
+    let cells = cells.map(|pair| (pair[0], pair[1], 1, -1, -1));
     let lines: Vec<(f64, f64, i64, i64, i64)> = segments.chain(cells).collect();
     let ends: Vec<f64> = lines.iter().flat_map(|line| [line.0, line.1]).collect();
     let n = lines.len() as i64;
     Grid {
-        points: ends
+        points: lines
             .iter()
-            .flat_map(|&s| midplane.position(s))
-            .collect::<Vec<_>>()
-            .chunks_exact(2)
+            .flat_map(|line| {
+                let inside = 0.5 * (line.0 + line.1);
+                [line.0, line.1].map(|s| midplane.position(s, inside))
+            })
             .flat_map(|p| [p[0], p[1], 0.0])
             .collect(),
         connectivity: (0..2 * n).collect(),

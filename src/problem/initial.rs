@@ -1,5 +1,6 @@
 //! Initial tractions t₀ at the law points of a joint (paper eq. 10).
 
+use super::Gaps;
 use super::quantity::Quantity;
 use crate::assembly::Joint;
 use crate::error::Result;
@@ -53,15 +54,16 @@ pub(super) fn states(
     name: &str,
     law: &Law,
     initial: &InitialTraction,
+    gaps: &Gaps,
     joint: &Joint,
 ) -> Result<Vec<law::State>> {
     if matches!(law, Law::Elastic(_)) {
         return Ok(Vec::new());
     }
     let state = |point: usize| {
-        law.initial_state(initial.at(point).into(), 0.0).map_err(|Inadmissible { key, what, cure }| {
-            scene.source.refuse(&["interfaces", name, key], what, cure)
-        })
+        law.initial_state(initial.at(point).into(), gaps.at(point)).map_err(
+            |Inadmissible { key, what, cure }| scene.source.refuse(&["interfaces", name, key], what, cure),
+        )
     };
     (0..joint.coupling.points.len()).map(state).collect()
 }

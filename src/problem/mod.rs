@@ -1,26 +1,29 @@
 //! A scene bound to its meshes: names become nodes, edges and cells, once.
 
 mod along;
+mod gap;
 mod groups;
 mod history;
 mod initial;
+mod joint;
 mod load;
 mod probes;
 mod quantity;
 mod rigid;
 mod stage;
 
+pub use gap::Gaps;
 pub use history::Reaction;
 pub use initial::InitialTraction;
+pub use joint::stiffness_number;
 pub use probes::{BoundProbe, ProbeInput};
 pub use stage::Stage;
 
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
-use crate::coupling::{Coupling, Kind, Points, Side};
 use crate::error::Result;
 use crate::law::{self, Law, Stepping};
-use crate::mesh::{Edge, Mesh};
+use crate::mesh::Mesh;
 use crate::scene::{self, Scene};
 
 /// K_N h/E times the machine's ε from which rounding is seen in the tractions.
@@ -65,11 +68,12 @@ impl Problem {
         let mut warnings = Vec::new();
         let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
         for (name, interface) in &scene.interfaces {
-            let joint = join(scene, &model, name, interface)?;
+            let joint = joint::join(scene, &model, name, interface)?;
             refuse_beyond_precision(scene, &model, &joint, interface)?;
             warnings.extend(joint_warnings(&model, &joint, interface));
+            let gaps = Gaps::new(interface.initial_gap, &joint);
             let initial = InitialTraction::bind(scene, name, interface, &joint)?;
-            states.push(initial::states(scene, name, &interface.law, &initial, &joint)?);
+            states.push(initial::states(scene, name, &interface.law, &initial, &gaps, &joint)?);
             stepping.push(Stepping::Tolerance(interface.law_tolerance));
             laws.push((interface.law, initial));
             model.joints.push(joint);
@@ -100,60 +104,6 @@ fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
     bodies.collect()
 }
 
-/// Builds one joint.
-fn join(scene: &Scene, model: &Model, name: &str, interface: &scene::Interface) -> Result<Joint> {
-    let mut sides: Vec<(usize, String, Vec<Edge>)> = Vec::new();
-    for (key, side) in [("side_a", &interface.side_a), ("side_b", &interface.side_b)] {
-        let mut edges = Vec::new();
-        let mut body = 0;
-        for group in side.names() {
-            let (of, members) = groups::curve(scene, model, &["interfaces", name, key], group)?;
-            body = of;
-            edges.extend_from_slice(members);
-        }
-        sides.push((body, side.names().join(", "), edges));
-    }
-    let side = |i: usize| {
-        let (body, name, edges) = &sides[i];
-        Side { name: name.as_str(), points: &model.bodies[*body].mesh.points, edges: edges.as_slice() }
-    };
-    let kind = match interface.coupling {
-        scene::CouplingKind::Pointwise => Kind::Pointwise,
-        scene::CouplingKind::Projected => match interface.grid {
-            scene::Grid::Quadratic => Kind::Projected,
-            scene::Grid::Auto
-                if sides.iter().all(|(body, _, edges)| on_quadrilaterals(model, *body, edges)) =>
-            {
-                Kind::Projected
-            }
-            scene::Grid::Auto | scene::Grid::Linear => Kind::ProjectedLinear,
-        },
-    };
-    let points = match interface.quadrature {
-        scene::Quadrature::Gauss => Points::Gauss,
-        scene::Quadrature::Lobatto => Points::Lobatto,
-    };
-    let coupling = Coupling::build(name, side(0), side(1), kind, points)?;
-    let bodies = [sides[0].0, sides[1].0];
-    let first = bodies.map(|body| model.bodies[body].first_node);
-    Ok(Joint::new(name, coupling, bodies, first, model.dofs(), model.thickness))
-}
-
-/// True if all cells along a side are quadrilaterals.
-fn on_quadrilaterals(model: &Model, body: usize, edges: &[Edge]) -> bool {
-    edges.iter().all(|edge| model.bodies[body].mesh.cells.shapes[edge.cell].corners() == 4)
-}
-
-/// K_N h/E of a joint: the larger of the two edges meeting, the smaller E, maximum along the joint.
-pub fn stiffness_number(model: &Model, joint: &Joint, law: &Law) -> f64 {
-    let midplane = &joint.coupling.midplane;
-    let edge = |s: &[f64], e: usize| s[e + 1] - s[e]; // edge ends come first
-    let lengths =
-        midplane.segments.iter().map(|g| edge(&midplane.s_a, g.edge_a).max(edge(&midplane.s_b, g.edge_b)));
-    let young = joint.bodies.map(|body| model.bodies[body].elasticity.young);
-    law.elastic_stiffness()[0] * lengths.fold(0.0, f64::max) / young[0].min(young[1])
-}
-
 /// A stiffness whose springs are nothing but rounding is refused.
 fn refuse_beyond_precision(
     scene: &Scene,
@@ -176,8 +126,8 @@ fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) ->
     let mut warnings = Vec::new();
     let midplane = &joint.coupling.midplane;
     let name = &joint.name;
-    let matched =
-        midplane.segments.len() == midplane.a.edges() && midplane.segments.len() == midplane.b.edges();
+    let edges = [midplane.a.edges(), midplane.b.edges()];
+    let matched = edges == [midplane.segments.len(); 2];
     let number = stiffness_number(model, joint, &interface.law);
     if number * f64::EPSILON > ROUNDING_SEEN {
         warnings.push(format!(
@@ -191,17 +141,16 @@ fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) ->
             "interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates; use \"projected\""
         ));
     }
-    for (chain, s, side) in [(&midplane.a, &midplane.s_a, "A"), (&midplane.b, &midplane.s_b, "B")] {
-        let whole = s[chain.edges()] - s[0];
-        if whole > midplane.length * (1.0 + 1e-9) {
-            let share = 100.0 * midplane.length / whole;
+    for (share, side) in midplane.joined.iter().zip(["A", "B"]) {
+        if *share < 1.0 - 1e-9 {
+            let (share, length) = (100.0 * share, midplane.length);
             warnings.push(format!(
-                "interface {name}: {share:.4} % of side {side} is joined, the rest faces nothing"
+                "interface {name}: {share:.4} % of side {side} is joined (length {length:.6}), the rest faces nothing"
             ));
         }
     }
     let widest = midplane.gap[1].max(-midplane.gap[0]);
-    if widest > 1e-9 * midplane.length {
+    if widest > 1e-9 * midplane.length && interface.initial_gap.is_none() {
         warnings
             .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
     }

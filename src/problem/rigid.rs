@@ -54,10 +54,9 @@ pub(super) fn refuse_free_bodies(
     }
     let mut u = vec![0.0; model.dofs()];
     for (joint, (law, _)) in model.joints.iter().zip(laws) {
-        let first = joint.bodies.map(|body| model.bodies[body].first_node);
-        let nodes_a = joint.coupling.nodes_a.iter().map(|&node| first[0] + node);
-        let nodes: Vec<usize> =
-            nodes_a.chain(joint.coupling.nodes_b.iter().map(|&node| first[1] + node)).collect();
+        let mut nodes = [joint.coupling.nodes_a.as_slice(), &joint.coupling.nodes_b].concat();
+        nodes.sort_unstable();
+        nodes.dedup(); // both sides of a slit share its tips
         let mut touched: Vec<usize> = nodes.iter().map(|&node| part_of[node]).collect();
         touched.sort_unstable();
         touched.dedup();

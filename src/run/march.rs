@@ -165,7 +165,8 @@ fn steps(
         // increments whose fields are not stored do without displacements where no joint needs them and it pays: a
         // measure costs about as much as recovering one increment
         let unstored = problem.fields != Fields::Every && active(problem).len() == model.joints.len();
-        let measures = ramp.as_ref().filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
+        let measures =
+            ramp.as_ref().filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
         let thrifty = !measures.is_empty() && measures.len() < stage.increments;
         let measures = if thrifty { measures } else { Vec::new() };
         begin(clock, "prepare");

@@ -1,7 +1,8 @@
 //! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
 
-use super::{Interface, Load, Plane, Scene, Step, Variable, split_group};
+use super::{InitialGap, Interface, Load, Plane, Scene, Step, Variable, split_group};
 use crate::error::{Result, name_cure};
+use crate::law::Law;
 use crate::scene::probe::Probe;
 
 impl Scene {
@@ -125,24 +126,13 @@ impl Scene {
                         format!("name a curve of it, such as \"{group}.top\""),
                     ));
                 }
-                if split_group(group).0 != split_group(&side.names()[0]).0 {
-                    return Err(self.source.refuse(
-                        &path,
-                        "curves of several subdomains",
-                        "one side lies on one subdomain",
-                    ));
-                }
             }
         }
-        let bodies = [&interface.side_a, &interface.side_b].map(|side| split_group(&side.names()[0]).0);
-        if bodies[0] == bodies[1] {
-            let what = format!("both sides lie on \"{}\"", bodies[0]);
-            return Err(self.source.refuse(
-                &path,
-                what,
-                "a joint lies between two subdomains: split the body into two",
-            ));
+        if let Some(both) = interface.side_a.names().iter().find(|a| interface.side_b.names().contains(a)) {
+            let what = format!("\"{both}\" is on both sides");
+            return Err(self.source.refuse(&path, what, "a joint lies between two different curves"));
         }
+        self.check_gap(name, interface)?;
         for (i, value) in interface.initial_traction.iter().enumerate() {
             if value.uses(Variable::LoadFactor) {
                 let path = ["interfaces", name, "initial_traction", &i.to_string()];
@@ -163,6 +153,23 @@ impl Scene {
             .law
             .check()
             .map_err(|law| self.source.refuse(&["interfaces", name, "law", law.key], law.what, law.cure))
+    }
+
+    fn check_gap(&self, name: &str, interface: &Interface) -> Result<()> {
+        let path = ["interfaces", name, "initial_gap"];
+        let Some(gap) = interface.initial_gap else { return Ok(()) };
+        if !matches!(interface.law, Law::Coulomb(_)) {
+            let what = "this law knows no initial gap";
+            let cure = "only \"type\": \"coulomb\" does: take that law or leave \"initial_gap\" out";
+            return Err(self.source.refuse(&path, what, cure));
+        }
+        match gap {
+            InitialGap::Uniform(gap) if !(gap >= 0.0 && gap.is_finite()) => {
+                let what = format!("{gap} is no distance");
+                Err(self.source.refuse(&path, what, "give a number, zero or more, or \"geometry\""))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check_step(&self, index: &str, step: &Step) -> Result<()> {

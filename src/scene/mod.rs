@@ -125,6 +125,9 @@ pub struct Interface {
     /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
     #[serde(default = "law_tolerance")]
     pub law_tolerance: f64,
+    /// How far apart the sides are to the law; without it they touch, whatever the meshes say. For `coulomb` only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_gap: Option<InitialGap>,
     /// Initial traction (n, t) [stress] (paper eq. 10); in a formula s runs along chain A with n on its left.
     #[serde(default)]
     pub initial_traction: [Value; 2],
@@ -138,6 +141,24 @@ pub enum OneOrMany {
     One(String),
     /// Several names.
     Many(Vec<String>),
+}
+
+/// Initial distance of the sides.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum InitialGap {
+    /// The same everywhere [length], zero or more.
+    Uniform(f64),
+    /// What it says.
+    Drawn(DrawnGap),
+}
+
+/// Initial distance as drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DrawnGap {
+    /// The distance of the meshes, point by point; an overlap counts as zero.
+    Geometry,
 }
 
 /// How two unmatched sides are joined.

@@ -63,7 +63,7 @@ fn quadratic(mesh: Mesh, shape: Shape) -> Mesh {
             }
         }
     }
-    Mesh { file: mesh.file, points, cells, groups }
+    Mesh { file: mesh.file, points, cells, corners: mesh.corners, groups }
 }
 
 fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {
@@ -111,7 +111,8 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
     curve("left", (0..ny).rev().map(|j| edge(node(0, j + 1), node(0, j))).collect());
     groups.insert("corner".into(), Group::Points(vec![0]));
     groups.insert("body".into(), Group::Cells((0..cells.len()).collect()));
-    Mesh { file: "test.msh".into(), points, cells, groups }
+    let corners = vec![node(0, 0), node(nx, 0), node(0, ny), node(nx, ny)];
+    Mesh { file: "test.msh".into(), points, cells, corners, groups }
 }
 
 /// Rotation by degrees about the origin.

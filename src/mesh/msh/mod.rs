@@ -40,6 +40,8 @@ pub(super) struct Content {
     pub(super) node_tags: Vec<u64>,
     /// Their coordinates.
     pub(super) points: Vec<[f64; 2]>,
+    /// Nodes that belong to points of the geometry.
+    pub(super) corners: Vec<u32>,
     /// Largest |z| and the node that has it.
     pub(super) off_plane: (f64, u64),
     /// Physical points: node.

@@ -28,7 +28,7 @@ pub(super) fn read(cursor: &mut Cursor, decoder: &mut Decoder, content: &mut Con
     content.node_tags.reserve_exact(total as usize);
     content.points.reserve_exact(total as usize);
     for _ in 0..blocks {
-        let (Some(_), Some(_), Some(parametric)) = (cursor.int(), cursor.int(), cursor.int()) else {
+        let (Some(dim), Some(_), Some(parametric)) = (cursor.int(), cursor.int(), cursor.int()) else {
             return Err(cut());
         };
         if parametric != 0 {
@@ -40,6 +40,10 @@ pub(super) fn read(cursor: &mut Cursor, decoder: &mut Decoder, content: &mut Con
         let count = cursor.size().ok_or_else(cut)?;
         if !cursor.holds(count.saturating_mul(PER_NODE)) {
             return Err(damaged(format!("claims {count} nodes in a block, more than the file can hold")));
+        }
+        if dim == 0 {
+            let first = content.node_tags.len() as u32;
+            content.corners.extend((0..count as u32).map(|i| first + i));
         }
         for _ in 0..count {
             let tag = cursor.size().ok_or_else(cut)?;

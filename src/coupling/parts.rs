@@ -1,0 +1,197 @@
+//! From two sides to the pieces of C: which parts of them lie on each other, and what is refused.
+//!
+//! Every smooth line of A meets every smooth line of B: where one of them starts beside the other, both are walked to the
+//! first end. A part whose sides are farther apart than polygons of one curve can be does not count as lying on each
+//! other; a part that comes apart on its way is refused with its gap.
+
+use super::angle::Angles;
+use super::chain::Body;
+use super::midplane::{Piece, Segment};
+use super::pair::{Face, Place, starts, walk};
+use super::vector::*;
+use super::{Chain, Gap, Midplane, Side, refusal, seam};
+use crate::error::Result;
+
+/// Faces without a gap may lie this far apart, beyond what chords of one curve do. Of the shorter line.
+pub(super) const FACING: f64 = 1e-3;
+/// Faces with a gap may lie this far apart. Of the shorter line.
+const OPEN: f64 = 0.25;
+/// A common part shorter than this is a touching point. Of the shorter line.
+const POINT: f64 = 3e-7;
+/// A common part shorter than this many times its gap is a corner seen from the side.
+const CORNER: f64 = 4.0;
+/// Nodes of A and B closer than this are one. Of the shorter line.
+const SLIVER: f64 = 1e-13;
+/// Nodes closer than this many units in the last place of their coordinates are one.
+const ROUNDING: f64 = 4.0;
+
+/// A common part of two lines.
+pub(super) struct Part {
+    pub segments: Vec<Segment>,
+    /// Place in the order along A.
+    order: (usize, Place),
+    closed: bool,
+    pub length: f64,
+    /// Smallest and largest distance along n.
+    pub gap: [f64; 2],
+    /// The worst place: by how much its distance exceeds what is allowed, the distance, and where.
+    pub worst: (f64, f64, [f64; 2]),
+    /// True if the sides lie on each other somewhere.
+    touches: bool,
+}
+
+/// Builds the mid-plane.
+pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Midplane> {
+    let sides = [side_a, side_b];
+    let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
+    let origin = edge.unwrap_or_default();
+    let a = Chain::order(name, side_a, Body::Right, origin)?;
+    let b = Chain::order(name, side_b, Body::Left, origin)?;
+    let angles = [Angles::new(&a), Angles::new(&b)];
+    let kink = angles[0].sharpest.max(angles[1].sharpest);
+    let mut c = Midplane {
+        a,
+        b,
+        origin,
+        length: 0.0,
+        gap: [f64::INFINITY, f64::NEG_INFINITY],
+        joined: [0.0; 2],
+        kink,
+        segments: Vec::new(),
+        pieces: Vec::new(),
+        angles,
+    };
+    let (near, far): (Vec<Part>, Vec<Part>) = parts(&mut c, gap).into_iter().partition(|part| part.touches);
+    if near.is_empty() {
+        return Err(refusal::nothing_common(name, sides, &c, &far));
+    }
+    if let Some(part) = near.iter().find(|part| !(part.worst.0 <= 0.0)) {
+        return Err(refusal::apart(name, sides, part));
+    }
+    assemble(&mut c, near);
+    seam::turn_closed(&mut c);
+    for side in 0..2 {
+        let share = cover(&c, side);
+        if let Some(place) = share.iter().position(|share| *share > 1.0 + FACING) {
+            return Err(refusal::twice(name, sides, &c, side, place));
+        }
+        let lengths = |e: usize| if side == 0 { c.a.chord(e) } else { c.b.chord(e) };
+        let whole: f64 = (0..share.len()).map(lengths).sum();
+        c.joined[side] = share.iter().enumerate().map(|(e, share)| share * lengths(e)).sum::<f64>() / whole;
+    }
+    Ok(c)
+}
+
+/// All common parts of all lines, whatever their gap.
+pub(super) fn parts(c: &mut Midplane, gap: Gap) -> Vec<Part> {
+    let lines = [0, 1].map(|side| c.angles[side].lines.clone());
+    let length = |chain: &Chain, edges: &[usize]| edges.iter().map(|&e| chain.chord(e)).sum::<f64>();
+    let lengths_b: Vec<f64> = lines[1].iter().map(|line| length(&c.b, &line.edges)).collect();
+    let largest = c.origin[0].abs().max(c.origin[1].abs());
+    let mut found = Vec::new();
+    for (l, line_a) in lines[0].iter().enumerate() {
+        let length_a = length(&c.a, &line_a.edges);
+        for (line_b, &length_b) in lines[1].iter().zip(&lengths_b) {
+            let shorter = length_a.min(length_b);
+            let merge = (SLIVER * shorter).max(ROUNDING * f64::EPSILON * largest);
+            let a = Face { chain: &c.a, angles: &c.angles[0] };
+            let b = Face { chain: &c.b, angles: &c.angles[1] };
+            let walks: Vec<_> = starts(a, line_a, b, line_b, merge)
+                .into_iter()
+                .map(|from| (from[0], walk(a, line_a, b, line_b, from, merge)))
+                .collect();
+            for (place, segments) in walks {
+                let closed = line_a.closed && line_b.closed;
+                let part = measure(c, segments, (l, place), closed, gap, shorter, merge);
+                let corner = CORNER * part.gap[1].max(-part.gap[0]);
+                if part.length > POINT * shorter && (part.length > corner || !part.touches) {
+                    found.push(part);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Lengths and gaps of the segments of a part; drops those that are no longer than nodes that are one.
+fn measure(
+    c: &mut Midplane,
+    segments: Vec<Segment>,
+    order: (usize, Place),
+    closed: bool,
+    gap: Gap,
+    shorter: f64,
+    merge: f64,
+) -> Part {
+    c.segments = segments;
+    let sagitta = |chain: &Chain, angles: &Angles, e: usize| {
+        let [start, end, _] = angles.of_edge[e];
+        if chain.mids[e].is_some() { 0.0 } else { 0.25 * chain.chord(e) * (end - start).abs() }
+    };
+    let mut part = Part {
+        segments: Vec::with_capacity(c.segments.len()),
+        order,
+        closed,
+        length: 0.0,
+        gap: [f64::INFINITY, f64::NEG_INFINITY],
+        worst: (f64::NEG_INFINITY, 0.0, [0.0; 2]),
+        touches: false,
+    };
+    for i in 0..c.segments.len() {
+        let length = c.measure(i);
+        let mut segment = c.segments[i];
+        if length <= 0.5 * merge {
+            continue;
+        }
+        (segment.start, segment.end) = (part.length, part.length + length);
+        part.length = segment.end;
+        let curved =
+            sagitta(&c.a, &c.angles[0], segment.edge_a).max(sagitta(&c.b, &c.angles[1], segment.edge_b));
+        for eta in [-1.0, 1.0] {
+            let spot = c.spot(i, eta);
+            part.gap = [part.gap[0].min(spot.gap), part.gap[1].max(spot.gap)];
+            let share = if gap == Gap::Open && spot.gap > 0.0 { OPEN } else { FACING };
+            let beyond = spot.gap.abs() - share * shorter - curved;
+            part.touches |= beyond <= 0.0;
+            if !(beyond <= part.worst.0) {
+                part.worst = (beyond, spot.gap, spot.position);
+            }
+        }
+        part.segments.push(segment);
+    }
+    part
+}
+
+/// Puts the parts one after the other, in the order of chain A.
+fn assemble(c: &mut Midplane, mut parts: Vec<Part>) {
+    parts.sort_by(|p, q| {
+        let key = |part: &Part| (part.order.0, part.order.1.i);
+        key(p).cmp(&key(q)).then(p.order.1.xi.total_cmp(&q.order.1.xi))
+    });
+    c.segments.clear();
+    for part in parts {
+        let first = c.segments.len();
+        for segment in part.segments {
+            let (start, end) = (c.length + segment.start, c.length + segment.end);
+            c.segments.push(Segment { start, end, ..segment });
+        }
+        c.gap = [c.gap[0].min(part.gap[0]), c.gap[1].max(part.gap[1])];
+        let segments = first..c.segments.len();
+        let follows = first > 0 && {
+            let (end, start) = (c.spot(first - 1, 1.0).position, c.spot(first, -1.0).position);
+            norm(minus(start, end)) <= FACING * part.length
+        };
+        c.length += part.length;
+        c.pieces.push(Piece { segments, closed: part.closed, follows });
+    }
+}
+
+/// How often every edge of a side is joined: 0 to 1, more if it faces two curves at one place.
+fn cover(c: &Midplane, side: usize) -> Vec<f64> {
+    let mut cover = vec![0.0; if side == 0 { c.a.edges() } else { c.b.edges() }];
+    for segment in &c.segments {
+        let (e, xi) = if side == 0 { (segment.edge_a, segment.xi_a) } else { (segment.edge_b, segment.xi_b) };
+        cover[e] += 0.5 * (xi[1] - xi[0]);
+    }
+    cover
+}

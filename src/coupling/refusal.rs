@@ -1,0 +1,88 @@
+//! Sides that cannot be joined: what is wrong, where, and what to do.
+
+use super::angle::Angles;
+use super::chain::names;
+use super::parts::{FACING, Part, parts};
+use super::vector::*;
+use super::{Gap, Midplane, Side};
+use crate::error::Error;
+
+const FACE: &str = "turn or move one of the parts, so that the curves lie on each other";
+
+fn both(sides: [&[Side]; 2]) -> String {
+    format!("{} and {}", names(sides[0]), names(sides[1]))
+}
+
+fn refuse(name: &str, what: String, cure: &str) -> Error {
+    Error::Interface { name: name.into(), what, cure: cure.into() }
+}
+
+/// The sides of a part are too far apart.
+pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &Part) -> Error {
+    let (_, gap, [x, y]) = part.worst;
+    let kind = if gap > 0.0 { "gap" } else { "overlap" };
+    let what = format!(
+        "{} do not lie on each other: {kind} of {:.3e} over a length of {:.3e}, near ({x:.6}, {y:.6})",
+        both(sides),
+        gap.abs(),
+        part.length
+    );
+    let cure = format!(
+        "{FACE} (up to {FACING:.0e} of the length beside what chords of one curve differ by), or declare an \"initial_gap\""
+    );
+    refuse(name, what, &cure)
+}
+
+/// No part lies on the other side: too far apart, on the wrong side, or beside each other.
+pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane, far: &[Part]) -> Error {
+    if let Some(part) = far.iter().max_by(|p, q| p.length.total_cmp(&q.length)) {
+        return apart(name, sides, part);
+    }
+    let mut turned = c.clone();
+    turned.b = turned.b.reversed();
+    turned.angles[1] = Angles::new(&turned.b);
+    if parts(&mut turned, Gap::Open).iter().any(|part| part.length > part.gap[1].max(-part.gap[0])) {
+        let what = format!("{} do not face each other: their bodies lie on the same side", both(sides));
+        return refuse(name, what, FACE);
+    }
+    // the lines start and end where the sides come closest
+    let ends = |chain: &super::Chain, angles: &Angles| -> Vec<[f64; 2]> {
+        let of_line = |line: &super::angle::Line| {
+            let (first, last) = (line.edges[0], line.edges[line.edges.len() - 1]);
+            [chain.point(first, -1.0), chain.point(last, 1.0)]
+        };
+        angles.lines.iter().flat_map(of_line).collect()
+    };
+    let (a, b) = (&c.a, &c.b);
+    let mut closest = (f64::INFINITY, [0.0; 2]);
+    for (from, to) in [(ends(a, &c.angles[0]), &b.points), (ends(b, &c.angles[1]), &a.points)] {
+        for x in from {
+            for y in to {
+                let distance = norm(minus(*y, x));
+                if distance < closest.0 {
+                    closest = (distance, plus(x, c.origin));
+                }
+            }
+        }
+    }
+    let (distance, [x, y]) = closest;
+    let extent = (0..a.edges()).map(|e| a.chord(e)).sum::<f64>();
+    let how = if distance > 1e-9 * extent {
+        format!("they are {distance:.3e} apart")
+    } else {
+        format!("they touch at ({x:.6}, {y:.6})")
+    };
+    refuse(name, format!("{} have no common length, {how}", both(sides)), FACE)
+}
+
+/// An edge faces two curves at one place.
+pub(super) fn twice(name: &str, sides: [&[Side]; 2], c: &Midplane, side: usize, edge: usize) -> Error {
+    let chain = if side == 0 { &c.a } else { &c.b };
+    let [x, y] = plus(chain.point(edge, 0.0), c.origin);
+    let what = format!(
+        "{} faces two curves of {} at one place, near ({x:.6}, {y:.6})",
+        names(sides[side]),
+        names(sides[1 - side])
+    );
+    refuse(name, what, "curves of one side must not lie on each other")
+}

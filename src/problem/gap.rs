@@ -1,0 +1,34 @@
+//! Initial gaps at the law points of a joint.
+
+use crate::assembly::Joint;
+use crate::scene::InitialGap;
+
+/// Initial gap of a joint: the normal jump, with its sign turned, at which the faces meet [length].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Gaps {
+    /// The same at all law points.
+    Uniform(f64),
+    /// One for every law point.
+    Varying(Vec<f64>),
+}
+
+impl Gaps {
+    /// Its value at a law point.
+    pub fn at(&self, point: usize) -> f64 {
+        match self {
+            Gaps::Uniform(gap) => *gap,
+            Gaps::Varying(gaps) => gaps[point],
+        }
+    }
+
+    /// What the scene says, on the geometry of a joint; without a word the faces touch.
+    pub(super) fn new(gap: Option<InitialGap>, joint: &Joint) -> Gaps {
+        match gap {
+            None => Gaps::Uniform(0.0),
+            Some(InitialGap::Uniform(gap)) => Gaps::Uniform(gap),
+            Some(InitialGap::Drawn(_)) => {
+                Gaps::Varying(joint.coupling.points.iter().map(|point| point.gap.max(0.0)).collect())
+            }
+        }
+    }
+}

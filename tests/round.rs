@@ -1,0 +1,206 @@
+//! Claim: on a circular interface, unmatched, the displacement converges with h² (linear) or h³ (quadratic, curved edges)
+//! and the traction at least with h^1.5, from soft springs to K_N h/E = 1e8: two rings under pressure and torque (case 3)
+//! and an inclusion in a plate under tension (case 4).
+//!
+//! ```text
+//!      ╭───────────╮   n_b edges outside
+//!    ╭─┤─── B ───╮ │
+//!    │ │ ╭─ A ─╮ │ │   C: r = b, n_a edges inside
+//!    │ │ ╰─────╯ │ │   held as in the exact solution inside; traction (case 3) or exact displacement (4) outside
+//!    ╰─┤─────────╯ │
+//!      ╰───────────╯
+//! ```
+
+mod common;
+#[path = "common/rings.rs"]
+mod rings;
+#[path = "common/round.rs"]
+mod round;
+#[path = "common/table.rs"]
+mod table;
+
+use common::*;
+use midplane::problem::Problem;
+use midplane::run::State;
+use midplane::shape::Shape;
+use rings::{Polar, Round, inclusion, rings};
+use round::{l2_error, quarter, ring};
+use table::{Table, list, rate};
+
+const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
+
+/// Scene text: A and B joined along A.top and B.bottom.
+fn scene(exact: &Round, k: [f64; 2], coupling: &str, step: &str) -> String {
+    let ([e1, e2], [nu1, nu2], [kn, kt]) = (exact.e, exact.nu, k);
+    format!(
+        r#"{{ "plane": "strain",
+          "subdomains": {{ "a": {{ "msh": "a", "material": "a" }}, "b": {{ "msh": "b", "material": "b" }} }},
+          "materials": {{ "a": {{ "young": {e1}, "poisson": {nu1} }}, "b": {{ "young": {e2}, "poisson": {nu2} }} }},
+          "interfaces": {{ "joint": {{ "side_a": "a.top", "side_b": "b.bottom", "coupling": "{coupling}",
+            "law": {{ "type": "elastic", "normal_stiffness": {kn:e}, "tangential_stiffness": {kt:e} }} }} }},
+          "steps": [ {{ "name": "load", {step} }} ] }}"#
+    )
+}
+
+fn displaced(group: &str, u: &Polar) -> String {
+    let [x, y] = u.formulas();
+    format!(r#""{group}": {{ "x": "{x}", "y": "{y}" }}"#)
+}
+
+/// Relative errors in L2: displacement of both bodies, traction at the law points.
+fn errors(problem: &Problem, state: &State, exact: &Round) -> [f64; 2] {
+    let mut displacement = [0.0; 2];
+    for (b, body) in problem.model.bodies.iter().enumerate() {
+        let u = &state.snapshot.u[problem.model.dofs_of(b)];
+        let sums = l2_error(&body.mesh, u, |x| exact.u[b].u(x));
+        (displacement[0], displacement[1]) = (displacement[0] + sums[0], displacement[1] + sums[1]);
+    }
+    let mut traction = [0.0; 2];
+    for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
+        let [x, y] = point.position;
+        let r2 = x * x + y * y;
+        let (c2, s2) = ((x * x - y * y) / r2, 2.0 * x * y / r2);
+        let (n, s) = (exact.normal[0] + exact.normal[1] * c2, -exact.shear[0] - exact.shear[1] * s2);
+        traction[0] += point.weight * ((t[0] - n).powi(2) + (t[1] - s).powi(2));
+        traction[1] += point.weight * (n * n + s * s);
+    }
+    [displacement, traction].map(|[error, norm]| (error / norm).sqrt())
+}
+
+/// Runs one case over elements, ratios and stiffnesses, three meshes each, and asserts the rates.
+fn converges(
+    name: &'static str,
+    heading: &str,
+    radii: [f64; 3],
+    outside: bool,
+    exact: impl Fn(f64, f64) -> Round,
+) {
+    let mut table = Table::new(
+        name,
+        heading,
+        "Relative L2 errors of displacement and traction on three meshes, each half as fine as the next; K_T = K_N/2; `projected`.",
+        &["element", "A:B", "K_N h/E", "displacement", "rate", "traction", "rate"],
+    );
+    let mut failures = Vec::new();
+    for shape in SHAPES {
+        let quadratic = shape.is_quadratic();
+        for (a, b) in [(2, 3), (3, 7)] {
+            for number in [0.1, 1e4, 1e8] {
+                let kn = number * 1e4 / 0.2;
+                let exact = exact(kn, 0.5 * kn);
+                let mut all = [Vec::new(), Vec::new()];
+                for level in 0..3 {
+                    let n = if quadratic { 8 } else { 16 } << level;
+                    let rows = if quadratic { 2 } else { 4 } << level;
+                    let mesh = |edges: usize, rows: usize, r: [f64; 2], from: f64| {
+                        ring(edges, &even(r[0], r[1], rows), shape, from)
+                    };
+                    let meshes = vec![
+                        mesh(a * n / if a == 3 { 2 } else { 1 }, rows, [radii[0], radii[1]], 0.3),
+                        mesh(b * n / if a == 3 { 2 } else { 1 }, rows, [radii[1], radii[2]], 0.4),
+                    ];
+                    let inner = displaced("a.bottom", &exact.u[0]);
+                    let step = if outside {
+                        format!(r#""displace": {{ {inner}, {} }}"#, displaced("b.top", &exact.u[1]))
+                    } else {
+                        let tau = exact.shear[0] * (radii[1] / radii[2]).powi(2);
+                        let r = "hypot(x,y)";
+                        format!(
+                            r#""displace": {{ {inner} }}, "load": {{ "b.top": {{ "traction": ["-{tau}*y/{r}", "{tau}*x/{r}"] }} }}"#
+                        )
+                    };
+                    let problem = bind(&scene(&exact, [kn, 0.5 * kn], "projected", &step), meshes).unwrap();
+                    let state = solve(&problem).0.remove(0);
+                    for (all, error) in all.iter_mut().zip(errors(&problem, &state, &exact)) {
+                        all.push(error);
+                    }
+                }
+                let rates = [rate(&all[0]), rate(&all[1])];
+                table.row(&[
+                    shape.label().into(),
+                    format!("{a}:{b}"),
+                    format!("{number:.0e}"),
+                    list(&all[0]),
+                    format!("{:.2}", rates[0]),
+                    list(&all[1]),
+                    format!("{:.2}", rates[1]),
+                ]);
+                let good = if quadratic { rates[0] >= 2.9 } else { (rates[0] - 2.0).abs() <= 0.1 };
+                if !good || rates[1] < 1.5 {
+                    failures.push(format!("{shape:?} {a}:{b} {number:e}: {rates:?}"));
+                }
+            }
+        }
+    }
+    table.finish();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn case_3_rings_under_pressure_and_torque() {
+    // the listed values of the case
+    let exact = rings(2e4, 1e4, 10.0, 20.0);
+    close(exact.normal[0], -1.0835214446952612, 1e-12, 1.0, "srr_b");
+    close(exact.shear[0], 1.4147106052612919, 1e-12, 1.0, "srt_b");
+    close(exact.u[1].u([0.0, 2.0])[1], 0.0005070880361173815, 1e-12, 1e-3, "ur_c");
+    close(exact.u[1].u([0.0, 2.0])[0], -0.0004910224725761067, 1e-12, 1e-3, "ut_c");
+    converges("case03", "Case 3: two rings under pressure and torque", [1.0, 1.5, 2.0], false, |kn, kt| {
+        rings(kn, kt, 10.0, 20.0)
+    });
+}
+
+#[test]
+fn case_4_inclusion_in_a_plate() {
+    let exact = inclusion(1.5e4, 8e3);
+    close(exact.normal[0] + exact.normal[1], 0.9976729346147841, 1e-12, 1.0, "tn_0");
+    close(exact.shear[1], -0.41256263602773696, 1e-12, 1.0, "tt_45");
+    close(exact.u[1].u([2.0, 2.0])[0], 0.0001849967146, 1e-9, 1e-4, "u_matrix_2a_2a x");
+    close(exact.u[1].u([0.0, 2.0])[1], -7.201561831234393e-05, 1e-12, 1e-4, "u_matrix_0_2a y");
+    converges("case04", "Case 4: inclusion in a plate under tension", [0.3, 1.0, 2.0], true, inclusion);
+}
+
+/// Claim: the errors of the traction on coarse, straight-sided rings stay small at any stiffness: Q4, quarter model,
+/// pressure alone, so that t_T = 0 exactly.
+#[test]
+fn stiff_rings_transmit_the_pressure() {
+    let mut table = Table::new(
+        "case03_stiff",
+        "Case 3 without torque: stiff springs on straight-sided Q4",
+        "Quarter model; RMS error of t_n / of t_t (exactly 0) over |t_n|.",
+        &["K_N", "12:17", "24:34", "48:68"],
+    );
+    // the rows to reach: t_n and t_t for 12:17, 24:34, 48:68
+    for (kn, rows) in [
+        (1e8, [[3e-3, 4e-3], [1e-3, 7e-4], [4e-4, 1.3e-4]]),
+        (1e10, [[3e-3, 4e-3], [1e-3, 8e-4], [4e-4, 1.4e-4]]),
+    ] {
+        let exact = rings(kn, kn, 10.0, 0.0);
+        let mut cells = vec![format!("{kn:.0e}")];
+        for (level, row) in rows.into_iter().enumerate() {
+            let [a, b] = [12 << level, 17 << level];
+            let rows_of = |n: usize| n / 4;
+            let shape = Shape::Quadrilateral4;
+            let meshes = vec![
+                quarter(a, &even(1.0, 1.5, rows_of(a)), shape),
+                quarter(b, &even(1.5, 2.0, rows_of(b)), shape),
+            ];
+            let step = r#""fix": { "a.left": ["x"], "b.left": ["x"], "a.right": ["y"], "b.right": ["y"] },
+                "load": { "a.bottom": { "pressure": 10 } }"#;
+            let problem = bind(&scene(&exact, [kn, kn], "projected", step), meshes).unwrap();
+            let state = solve(&problem).0.remove(0);
+            let (mut error, mut length) = ([0.0; 2], 0.0);
+            for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0])
+            {
+                error[0] += point.weight * (t[0] / exact.normal[0] - 1.0).powi(2);
+                error[1] += point.weight * (t[1] / exact.normal[0]).powi(2);
+                length += point.weight;
+            }
+            let error = error.map(|e| (e / length).sqrt());
+            cells.push(format!("{:.1e} / {:.1e}", error[0], error[1]));
+            // the rows are given with one digit
+            assert!(error[0] < 1.2 * row[0] && error[1] < 1.2 * row[1], "{kn:e} {a}:{b}: {error:?}");
+        }
+        table.row(&cells);
+    }
+    table.finish();
+}
