@@ -29,6 +29,8 @@ const SPECK: f64 = 1e-6;
 pub(super) struct Angles {
     /// Tangent angle of every edge at its start, end and middle [rad].
     pub of_edge: Vec<[f64; 3]>,
+    /// How far every edge may lie off the curve that it approximates [length].
+    pub slack: Vec<f64>,
     /// Lines without kinks.
     pub lines: Vec<Line>,
     /// The largest turn at a kink [rad].
@@ -48,7 +50,7 @@ impl Angles {
     /// Finds kinks and angles of a chain.
     pub(super) fn new(chain: &Chain) -> Angles {
         let own: Vec<[f64; 3]> = (0..chain.edges()).map(|e| own(chain, e)).collect();
-        let mut angles = Angles { of_edge: own.clone(), lines: Vec::new(), sharpest: 0.0 };
+        let mut angles = Angles { of_edge: own.clone(), slack: Vec::new(), lines: Vec::new(), sharpest: 0.0 };
         for run in &chain.runs {
             let edges: Vec<usize> = run.edges.clone().collect();
             let turns = turns(&own, &edges, run.closed);
@@ -77,6 +79,7 @@ impl Angles {
         for line in &angles.lines {
             smooth(chain, &own, line, &mut angles.of_edge);
         }
+        angles.slack = (0..chain.edges()).map(|e| slack(chain.chord(e), own[e], angles.of_edge[e])).collect();
         angles
     }
 
@@ -93,6 +96,13 @@ impl Angles {
         let (sin, cos) = self.at(e, xi).sin_cos();
         [cos, sin]
     }
+}
+
+/// How far an edge may lie off its curve: twice the sagitta h δ/4, δ the angle between edge and curve at its ends, and
+/// what is left of an arc when a parabola follows it, h θ³/512, with a margin likewise.
+fn slack(h: f64, own: [f64; 3], nodes: [f64; 3]) -> f64 {
+    let deviation = |i: usize| (near(nodes[i], own[i]) - own[i]).abs();
+    h * (0.5 * deviation(0).max(deviation(1)) + (nodes[1] - nodes[0]).abs().powi(3) / 256.0)
 }
 
 /// Angles of an edge's own derivative at its start, end and middle, continuous along it.

@@ -26,6 +26,9 @@ pub(super) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
     let mut cuts = vec![Cut { s: start, of: [true; 2] }];
     cuts.extend(segments.iter().map(|g| Cut { s: g.end, of: [g.xi_a[1] == 1.0, g.xi_b[1] == 1.0] }));
     let last = cuts.len() - 1;
+    if piece.closed {
+        replace_partner(&mut cuts, length);
+    }
     cuts[last].of = [true; 2];
     if starts_at_the_far_end(c, piece, &cuts, length) {
         let mirrored: Vec<Cut> = cuts.iter().rev().map(|cut| Cut { s: end - cut.s, of: cut.of }).collect();
@@ -33,6 +36,20 @@ pub(super) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
     } else {
         let from_start: Vec<Cut> = cuts.iter().map(|cut| Cut { s: cut.s - start, of: cut.of }).collect();
         walk(&from_start, length).into_iter().map(|i| cuts[i].s).collect()
+    }
+}
+
+/// A loop starts at a node of one side, which stands for the nearest node of the other side as well.
+fn replace_partner(cuts: &mut [Cut], length: f64) {
+    let (start, last) = (cuts[0].s, cuts.len() - 1);
+    for side in 0..2 {
+        let node = |i: &usize| cuts[*i].of[side];
+        if !cuts[last].of[side]
+            && let (Some(next), Some(before)) = ((1..last).find(node), (1..last).rev().find(node))
+        {
+            let nearer = cuts[next].s - start <= start + length - cuts[before].s;
+            cuts[if nearer { next } else { before }].of[side] = false;
+        }
     }
 }
 

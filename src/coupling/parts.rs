@@ -124,10 +124,6 @@ fn measure(
     merge: f64,
 ) -> Part {
     c.segments = segments;
-    let sagitta = |chain: &Chain, angles: &Angles, e: usize| {
-        let [start, end, _] = angles.of_edge[e];
-        if chain.mids[e].is_some() { 0.0 } else { 0.25 * chain.chord(e) * (end - start).abs() }
-    };
     let mut part = Part {
         segments: Vec::with_capacity(c.segments.len()),
         order,
@@ -145,8 +141,7 @@ fn measure(
         }
         (segment.start, segment.end) = (part.length, part.length + length);
         part.length = segment.end;
-        let curved =
-            sagitta(&c.a, &c.angles[0], segment.edge_a).max(sagitta(&c.b, &c.angles[1], segment.edge_b));
+        let curved = c.angles[0].slack[segment.edge_a].max(c.angles[1].slack[segment.edge_b]);
         for eta in [-1.0, 1.0] {
             let spot = c.spot(i, eta);
             part.gap = [part.gap[0].min(spot.gap), part.gap[1].max(spot.gap)];

@@ -16,6 +16,12 @@ pub(super) fn rule(points: Points, quadratic: bool) -> LineRule {
     }
 }
 
+/// Makes the weights of an interval sum to its length, whatever its curvature and the rule.
+pub(super) fn share_out(points: &mut [LawPoint], length: f64) {
+    let sum: f64 = points.iter().map(|point| point.weight).sum();
+    points.iter_mut().for_each(|point| point.weight *= length / sum);
+}
+
 pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     let components = 2;
     let mut triplets = Vec::new();
@@ -23,6 +29,7 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
     for (i, segment) in midplane.segments.iter().enumerate() {
         let quadratic =
             midplane.a.mids[segment.edge_a].is_some() || midplane.b.mids[segment.edge_b].is_some();
+        let first = law_points.len();
         for &[eta, weight] in rule(points, quadratic) {
             let spot = midplane.spot(i, eta);
             let row = components * law_points.len();
@@ -42,6 +49,7 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
                 interpolation: [(law_points.len(), 1.0), (0, 0.0), (0, 0.0)],
             });
         }
+        share_out(&mut law_points[first..], segment.end - segment.start);
     }
     let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());
     Coupling {

@@ -71,9 +71,7 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
                 interpolation: grid.functions(i, s),
             });
         }
-        // the weights of a cell are its length, whatever its curvature
-        let sum: f64 = law_points[first..].iter().map(|point| point.weight).sum();
-        law_points[first..].iter_mut().for_each(|point| point.weight *= 2.0 * half / sum);
+        pointwise::share_out(&mut law_points[first..], 2.0 * half);
     }
     Coupling {
         components,

@@ -23,41 +23,46 @@ pub(super) fn turn_closed(c: &mut Midplane) {
     }
 }
 
-/// Number of the segment in its piece that the loop starts with.
+/// Number of the segment in its piece that the loop starts with: of the two nodes the one with longer edges beside it.
 fn start(c: &Midplane, range: std::ops::Range<usize>) -> usize {
     let segments = &c.segments[range.clone()];
     let n = segments.len();
     let length: f64 = segments.iter().map(|g| g.end - g.start).sum();
+    // the start of segment i: of which sides it is a node, its edges there, its place
+    let node = |i: usize| {
+        let (before, after) = (&segments[(i + n - 1) % n], &segments[i]);
+        let of = [after.xi_a[0] == -1.0, after.xi_b[0] == -1.0];
+        let a = if of[0] { c.a.chord(before.edge_a) + c.a.chord(after.edge_a) } else { 0.0 };
+        let b = if of[1] { c.b.chord(before.edge_b) + c.b.chord(after.edge_b) } else { 0.0 };
+        (of, a.max(b), c.spot(range.start + i, -1.0).position)
+    };
+    // smaller x, then y
+    let first = |x: [f64; 2], y: [f64; 2]| {
+        let left = x[0] - y[0];
+        left < -SAME * length || left <= SAME * length && x[1] < y[1] - SAME * length
+    };
     let mut best: Option<(f64, [f64; 2], usize)> = None;
+    let (mut of, mut edges, mut x) = node(0);
     for i in 0..n {
-        let (segment, next) = (&segments[i], (i + 1) % n);
-        // a node of both sides, or one of A and one of B at the ends of a segment
-        let at_start = [segment.xi_a[0] == -1.0, segment.xi_b[0] == -1.0];
-        let at_end = [segment.xi_a[1] == 1.0, segment.xi_b[1] == 1.0];
-        let distance = if at_start == [true, true] || at_end == [true, true] {
-            0.0
-        } else if at_start != at_end {
-            segment.end - segment.start
+        let next = (i + 1) % n;
+        let (of_next, edges_next, x_next) = node(next);
+        let candidate = if of == [true; 2] {
+            Some((0.0, x, i))
+        } else if of_next != [true; 2] && of != of_next {
+            let (longer, distance) = (edges - edges_next, segments[i].end - segments[i].start);
+            let here = longer > SAME * length || longer >= -SAME * length && first(x, x_next);
+            let (x, i) = if here { (x, i) } else { (x_next, next) };
+            Some((distance, x, i))
         } else {
-            continue;
+            None
         };
-        let ends =
-            [(i, c.spot(range.start + i, -1.0).position), (next, c.spot(range.start + i, 1.0).position)];
-        for (j, x) in ends {
-            let both = if j == i { at_start } else { at_end };
-            if distance == 0.0 && both != [true, true] {
-                continue;
-            }
-            let better = best.is_none_or(|(d, y, _)| {
-                let (closer, left) = (distance - d, x[0] - y[0]);
-                closer < -SAME * length
-                    || closer <= SAME * length
-                        && (left < -SAME * length || left <= SAME * length && x[1] < y[1] - SAME * length)
-            });
-            if better {
-                best = Some((distance, x, j));
-            }
-        }
+        let better = |(d, x, _): &(f64, [f64; 2], usize)| {
+            best.is_none_or(|(least, y, _)| {
+                *d < least - SAME * length || *d <= least + SAME * length && first(*x, y)
+            })
+        };
+        best = candidate.filter(better).or(best);
+        (of, edges, x) = (of_next, edges_next, x_next);
     }
     best.map_or(0, |(_, _, first)| first)
 }
