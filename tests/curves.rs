@@ -166,7 +166,7 @@ proptest! {
 
     /// Claim: turning, moving and scaling the whole turns and scales the forces.
     #[test]
-    fn place_and_size_do_not_matter(pair in pairs(), angle in 0.0f64..6.28, size in -3.0f64..3.0) {
+    fn place_and_size_do_not_matter(pair in pairs(), angle in 0.0f64..6.0, size in -3.0f64..3.0) {
         // equal edges everywhere are a tie: the grid's walk then starts where x is smaller
         let equal = |t: &[f64]| t.windows(2).all(|w| ((w[1] - w[0]) * (t.len() - 1) as f64 - 1.0).abs() < 1e-6);
         prop_assume!(!pair.t.iter().all(|t| equal(t)));

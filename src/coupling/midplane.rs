@@ -88,14 +88,11 @@ impl Midplane {
     /// The place η of a segment, −1 at its start and 1 at its end.
     pub fn spot(&self, segment: usize, eta: f64) -> Spot {
         let g = &self.segments[segment];
-        let (xi_a, slope_a) = within(&self.a, g.edge_a, g.xi_a, eta);
-        let (xi_b, slope_b) = within(&self.b, g.edge_b, g.xi_b, eta);
+        let (xi_a, xi_b, along) = self.along(g, eta);
         let (x_a, x_b) = (self.a.point(g.edge_a, xi_a), self.b.point(g.edge_b, xi_b));
         let [a, b] = &self.angles;
         let tangent = unit(plus(a.tangent(g.edge_a, xi_a), b.tangent(g.edge_b, xi_b)));
         let normal = [-tangent[1], tangent[0]];
-        let (d_a, d_b) = (self.a.derivative(g.edge_a, xi_a), self.b.derivative(g.edge_b, xi_b));
-        let along = [0, 1].map(|d| 0.5 * (d_a[d] * slope_a + d_b[d] * slope_b));
         Spot {
             xi_a,
             xi_b,
@@ -106,9 +103,22 @@ impl Midplane {
         }
     }
 
+    /// ξ on both edges at a place of a segment, and dC/dη.
+    fn along(&self, g: &Segment, eta: f64) -> (f64, f64, [f64; 2]) {
+        let (xi_a, slope_a) = within(&self.a, g.edge_a, g.xi_a, eta);
+        let (xi_b, slope_b) = within(&self.b, g.edge_b, g.xi_b, eta);
+        let (d_a, d_b) = (self.a.derivative(g.edge_a, xi_a), self.b.derivative(g.edge_b, xi_b));
+        (xi_a, xi_b, [0, 1].map(|d| 0.5 * (d_a[d] * slope_a + d_b[d] * slope_b)))
+    }
+
     /// Length of a segment: ∫ |dC/dη| dη [length].
     pub(super) fn measure(&self, segment: usize) -> f64 {
-        GAUSS_3.iter().map(|&[eta, weight]| weight * self.spot(segment, eta).speed).sum()
+        let g = &self.segments[segment];
+        let speed = |eta: f64| norm(self.along(g, eta).2);
+        if self.a.mids[g.edge_a].is_none() && self.b.mids[g.edge_b].is_none() {
+            return 2.0 * speed(0.0); // two straight edges: constant
+        }
+        GAUSS_3.iter().map(|&[eta, weight]| weight * speed(eta)).sum()
     }
 
     /// The segment of a piece that holds arc length `s`, and the place η on it.

@@ -13,6 +13,9 @@ use super::angle::{Angles, Line};
 use super::midplane::Segment;
 use super::{Chain, vector::*};
 
+/// Places are found to within this. Of the distance within which nodes are one, so that rounding is all that is left.
+const FINE: f64 = 1e-3;
+
 /// A side with its directions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Face<'a> {
@@ -82,7 +85,7 @@ fn facing(face: Face, line: &Line, spot: Spot, sign: f64, merge: f64) -> Option<
             let xi = if f_start >= -merge {
                 -1.0
             } else {
-                root(|xi| beyond(face.spot(e, xi)), -1.0, f_start, f_end)
+                root(|xi| beyond(face.spot(e, xi)), -1.0, f_start, f_end, FINE * merge)
             };
             let x = face.chain.point(e, xi);
             let distance = minus(x, spot.x)[0].hypot(minus(x, spot.x)[1]);
@@ -115,10 +118,10 @@ pub(super) fn walk(
         let (mut xi_a, mut xi_b) = (1.0, 1.0);
         if f > merge {
             let beyond = |xi: f64| ahead(node_a, b.spot(edge_b, xi));
-            xi_b = root(beyond, at_b.xi, beyond(at_b.xi), f);
+            xi_b = root(beyond, at_b.xi, beyond(at_b.xi), f, FINE * merge);
         } else if f < -merge {
             let beyond = |xi: f64| -ahead(a.spot(edge_a, xi), node_b);
-            xi_a = root(beyond, at_a.xi, beyond(at_a.xi), -f);
+            xi_a = root(beyond, at_a.xi, beyond(at_a.xi), -f, FINE * merge);
         }
         let segment =
             Segment { start: 0.0, end: 0.0, edge_a, edge_b, xi_a: [at_a.xi, xi_a], xi_b: [at_b.xi, xi_b] };
@@ -140,14 +143,15 @@ fn stop(line: &Line, from: Place) -> usize {
     }
 }
 
-/// The root of an ascending function between `low` and 1, where it has the values `f_low` and `f_high` > 0: the
+/// The root of an ascending function between `low` and 1, where it has the values `f_low` and `f_high` > 0, up to a value
+/// of `small`: the
 /// Illinois form of false position, exact at once where the function is linear.
-fn root(f: impl Fn(f64) -> f64, mut low: f64, mut f_low: f64, mut f_high: f64) -> f64 {
+fn root(f: impl Fn(f64) -> f64, mut low: f64, mut f_low: f64, mut f_high: f64, small: f64) -> f64 {
     let mut high = 1.0;
     if f_low >= 0.0 {
         return low;
     }
-    let small = f64::EPSILON * (f_high - f_low);
+    let small = small.max(f64::EPSILON * (f_high - f_low));
     let mut last = 0;
     for _ in 0..60 {
         let xi = (low * f_high - high * f_low) / (f_high - f_low);

@@ -65,7 +65,7 @@ pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Re
     if near.is_empty() {
         return Err(refusal::nothing_common(name, sides, &c, &far));
     }
-    if let Some(part) = near.iter().find(|part| !(part.worst.0 <= 0.0)) {
+    if let Some(part) = near.iter().find(|part| part.worst.0 > 0.0 || part.worst.0.is_nan()) {
         return Err(refusal::apart(name, sides, part));
     }
     assemble(&mut c, near);
@@ -142,13 +142,14 @@ fn measure(
         (segment.start, segment.end) = (part.length, part.length + length);
         part.length = segment.end;
         let curved = c.angles[0].slack[segment.edge_a].max(c.angles[1].slack[segment.edge_b]);
-        for eta in [-1.0, 1.0] {
+        // where a segment ends the next one starts
+        for &eta in if part.segments.is_empty() { &[-1.0, 1.0][..] } else { &[1.0] } {
             let spot = c.spot(i, eta);
             part.gap = [part.gap[0].min(spot.gap), part.gap[1].max(spot.gap)];
             let share = if gap == Gap::Open && spot.gap > 0.0 { OPEN } else { FACING };
             let beyond = spot.gap.abs() - share * shorter - curved;
             part.touches |= beyond <= 0.0;
-            if !(beyond <= part.worst.0) {
+            if beyond > part.worst.0 || beyond.is_nan() {
                 part.worst = (beyond, spot.gap, spot.position);
             }
         }
