@@ -1,0 +1,44 @@
+// Two rings, inner one: a quarter, in quadratic quadrilaterals with curved edges.
+//
+//            y
+//            |  left
+//    outside +--_
+//            |    -_   outer = side A of the joint, edges
+//     inside +-_    \
+//               \    \      inner: r = inside
+//   bore         |    |     outer: r = outside
+//                +----+-- x
+//                 bottom
+//
+// Physical groups: inner, outer, left, bottom (curves), body (surface).
+
+DefineConstant[ inside  = {1.0, Name "Inner radius [m]"} ];
+DefineConstant[ outside = {1.5, Name "Outer radius [m]"} ];
+DefineConstant[ edges   = {6, Name "Edges along the joint"} ];
+DefineConstant[ rows    = {2, Name "Rows of elements"} ];
+
+Point(1) = {0, 0, 0};
+Point(2) = {inside, 0, 0};
+Point(3) = {outside, 0, 0};
+Point(4) = {0, outside, 0};
+Point(5) = {0, inside, 0};
+
+Line(1) = {2, 3};
+Circle(2) = {3, 1, 4};
+Line(3) = {4, 5};
+Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+
+Transfinite Curve {2, 4} = edges + 1;
+Transfinite Curve {1, 3} = rows + 1;
+Transfinite Surface {1};
+Recombine Surface {1};
+Mesh.ElementOrder = 2;
+Mesh.SecondOrderIncomplete = 1; // Q8
+
+Physical Curve("bottom") = {1};
+Physical Curve("outer") = {2};
+Physical Curve("left") = {3};
+Physical Curve("inner") = {4};
+Physical Surface("body") = {1};
