@@ -132,6 +132,9 @@ def draw_coupling(results, name, interface, title, units):
     shown = segments[:FEW]
     (x0, y0), (x1, y1) = points[shown].min(axis=(0, 1)), points[shown].max(axis=(0, 1))
     gap, depth, air = 0.13 * (x1 - x0), 0.14 * (x1 - x0), 0.03 * (x1 - x0)
+    pull = pulling(points[segments], x1 - x0)
+    if pull.closed:
+        air = 0.5 * (x1 - x0)
 
     edges_a, edges_b = (len(np.unique(column)) for column in parents.T)
     subtitle = (
@@ -149,7 +152,7 @@ def draw_coupling(results, name, interface, title, units):
     for side, shift in (("side_a", -gap / 2), ("side_b", gap / 2)):
         for subdomain in subdomains_of(interface[side]):
             mesh = results.subdomains[subdomain].copy()
-            mesh.points[:, :2] = lay(mesh.points[:, :2]) + (0, shift)
+            mesh.points[:, :2] = pull(lay(mesh.points[:, :2]), shift)
             parts.append(mesh)
     sheet.render(parts, "#9A9A97", color=FACE)
     nodes = {"marker": "o", "markersize": 3.6, "linestyle": "--", "linewidth": 0.7}
@@ -157,7 +160,7 @@ def draw_coupling(results, name, interface, title, units):
         feet = points[ends_of_edges(segments, parents[:, column])]
         for foot in feet:
             sheet.axis.plot(
-                *np.array([foot, foot + (0, shift)]).T, color=colour, markevery=[1], zorder=3, **nodes
+                *np.array([foot, pull(foot, shift)]).T, color=colour, markevery=[1], zorder=3, **nodes
             )
     draw_midplane(sheet.axis, points, segments, cells, 0.06 * gap)
     dots = {"linestyle": "", "marker": "o", "markeredgecolor": "white", "markeredgewidth": 0.5}
@@ -182,6 +185,23 @@ def lying(start, end, size):
     along = along / length if length > 1e-6 * size else np.array([1.0, 0.0])
     rotation = np.array([along, [-along[1], along[0]]])
     return lambda points: (points - start) @ rotation.T
+
+
+def pulling(lines, size):
+    """The map that pulls a side off the mid-plane: straight up, or out of the middle where it is closed."""
+    starts = lines[:, 0]
+    closed = np.linalg.norm(lines[-1, 1] - lines[0, 0]) < 1e-6 * size
+    centre = starts.mean(axis=0)
+    x, y = (starts - centre).T
+    outward = -np.sign(x @ np.roll(y, -1) - y @ np.roll(x, -1))  # n is on the left of C
+
+    def pull(points, shift):
+        if not closed:
+            return points + (0, shift)
+        return centre + (points - centre) * (1 + outward * shift / (0.5 * size))
+
+    pull.closed = closed
+    return pull
 
 
 def subdomains_of(side):

@@ -94,7 +94,7 @@ fn sum_of_segments(problem: &Problem, joint: usize) -> f64 {
 #[test]
 fn b1_one_edge_against_a_thousand() {
     let check = |n: usize, m: usize, c: &Coupling| {
-        let common = (0..=n).filter(|i| (i * m) % n == 0).count() - 2;
+        let common = (0..=n).filter(|i| (i * m).is_multiple_of(n)).count() - 2;
         assert_eq!(c.midplane.segments.len(), n + m - 1 - common, "{n}:{m}");
         assert!(c.grid.len() <= n + 1);
     };

@@ -23,6 +23,8 @@ pub struct Midplane {
     pub length: f64,
     /// Smallest and largest distance from A to B along n; negative where they overlap [length].
     pub gap: [f64; 2],
+    /// Largest distance of the sides, either way, beyond what chords of one curve differ by [length].
+    pub apart: f64,
     /// Shares of A's and of B's length that are joined.
     pub joined: [f64; 2],
     /// The largest turn at a kink of either side [rad].

@@ -34,6 +34,8 @@ pub(super) struct Part {
     pub length: f64,
     /// Smallest and largest distance along n.
     pub gap: [f64; 2],
+    /// Largest distance beyond what chords of one curve differ by.
+    apart: f64,
     /// The worst place: by how much its distance exceeds what is allowed, the distance, and where.
     pub worst: (f64, f64, [f64; 2]),
     /// True if the sides lie on each other somewhere.
@@ -55,6 +57,7 @@ pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Re
         origin,
         length: 0.0,
         gap: [f64::INFINITY, f64::NEG_INFINITY],
+        apart: 0.0,
         joined: [0.0; 2],
         kink,
         segments: Vec::new(),
@@ -130,6 +133,7 @@ fn measure(
         closed,
         length: 0.0,
         gap: [f64::INFINITY, f64::NEG_INFINITY],
+        apart: 0.0,
         worst: (f64::NEG_INFINITY, 0.0, [0.0; 2]),
         touches: false,
     };
@@ -148,6 +152,7 @@ fn measure(
             part.gap = [part.gap[0].min(spot.gap), part.gap[1].max(spot.gap)];
             let share = if gap == Gap::Open && spot.gap > 0.0 { OPEN } else { FACING };
             let beyond = spot.gap.abs() - share * shorter - curved;
+            part.apart = part.apart.max(spot.gap.abs() - curved);
             part.touches |= beyond <= 0.0;
             if beyond > part.worst.0 || beyond.is_nan() {
                 part.worst = (beyond, spot.gap, spot.position);
@@ -172,6 +177,7 @@ fn assemble(c: &mut Midplane, mut parts: Vec<Part>) {
             c.segments.push(Segment { start, end, ..segment });
         }
         c.gap = [c.gap[0].min(part.gap[0]), c.gap[1].max(part.gap[1])];
+        c.apart = c.apart.max(part.apart);
         let segments = first..c.segments.len();
         let follows = first > 0 && {
             let (end, start) = (c.spot(first - 1, 1.0).position, c.spot(first, -1.0).position);

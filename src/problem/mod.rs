@@ -149,8 +149,8 @@ fn joint_warnings(model: &Model, joint: &Joint, interface: &scene::Interface) ->
             ));
         }
     }
-    let widest = midplane.gap[1].max(-midplane.gap[0]);
-    if widest > 1e-9 * midplane.length && interface.initial_gap.is_none() {
+    if midplane.apart > 1e-9 * midplane.length && interface.initial_gap.is_none() {
+        let widest = midplane.gap[1].max(-midplane.gap[0]);
         warnings
             .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
     }
