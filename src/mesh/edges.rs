@@ -68,6 +68,17 @@ impl EdgeTable {
         along.or(against).map(|(cell, nodes)| Edge { nodes, cell, boundary })
     }
 
+    /// The edges without a cell on their right.
+    pub(super) fn boundary(&self, cells: &Cells) -> Vec<Edge> {
+        let mut found = Vec::new();
+        each_edge(cells, |cell, nodes| {
+            if self.left(cells, nodes[1], nodes[0]).is_none() {
+                found.push(Edge { nodes, cell, boundary: true });
+            }
+        });
+        found
+    }
+
     fn same_mid_nodes(&self, cells: &Cells, tags: &[u64]) -> Result<(), Fault> {
         if !cells.shapes.iter().any(|shape| shape.is_quadratic()) {
             return Ok(());

@@ -6,7 +6,8 @@
 //! edge of a curve group knows the cell it bounds and runs with that cell on its left.
 //!
 //! From a geometry to a mesh: `mesh_all` (`cache`) asks what a .geo consists of (`sources`), runs `gmsh`, and keeps the
-//! file; `read` takes its bytes apart (`msh`) and builds `cells`, `edges` and `groups`.
+//! file; `read` takes its bytes apart (`msh`) and builds `cells`, `edges` and `groups`. Several subdomains may share a
+//! mesh, each a `part` of it.
 
 mod cache;
 mod cells;
@@ -14,8 +15,10 @@ mod edges;
 mod gmsh;
 mod groups;
 mod msh;
+mod part;
 mod read;
 mod sources;
+mod touch;
 
 use std::path::PathBuf;
 
@@ -24,6 +27,7 @@ use indexmap::IndexMap;
 pub use cache::{Job, Meshed, mesh_all};
 pub use gmsh::Gmsh;
 pub use read::{from_bytes, read};
+pub use touch::{Touch, touching};
 
 use crate::shape::Shape;
 
@@ -113,6 +117,14 @@ impl Group {
         points.sort_unstable();
         points.dedup();
         points
+    }
+
+    /// True without members.
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Group::Points(members) | Group::Cells(members) => members.is_empty(),
+            Group::Edges(edges) => edges.is_empty(),
+        }
     }
 
     /// "point", "curve" or "surface".

@@ -1,0 +1,262 @@
+//! Where bodies touch: pairs of boundary edges that lie on each other, gathered into connected lines.
+//!
+//! ```text
+//!   b   ●──────●────────●──●        two edges touch if they run against each other, share some length, and are as
+//!   a   ●───●──────●───────●        close there as their sizes and the curvature of the boundary explain
+//! ```
+//!
+//! All lengths are relative to the edges concerned. An R-tree finds the neighbours: O(n log n) for n boundary edges.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+use rstar::{AABB, RTree, RTreeObject};
+
+use super::{Edge, Mesh};
+use crate::error::Result;
+
+/// Touching edges may be this far apart, and more where the boundary turns. Of their length.
+const NEAR: f64 = 1e-3;
+/// What a turn by one radian adds: two chords of a circle are up to 1/8 of their turn and length apart.
+const BEND: f64 = 0.25;
+/// A turn above this is a corner, not a bend [rad].
+const CORNER: f64 = 0.9;
+/// Touching edges run against each other: the cosine between them is below this.
+const AGAINST: f64 = -0.5;
+/// A shared length below this is a point. Of the shorter edge.
+const POINT: f64 = 1e-10;
+/// Nodes of both bodies closer than this end at one place. Of the shorter edge.
+const TOGETHER: f64 = 1e-6;
+
+/// A connected line along which two bodies touch.
+#[derive(Debug, Clone)]
+pub struct Touch {
+    /// The two bodies.
+    pub bodies: [usize; 2],
+    /// Their edges there, each once.
+    pub edges: [Vec<Edge>; 2],
+}
+
+/// A boundary edge as a straight line.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    body: usize,
+    edge: Edge,
+    ends: [[f64; 2]; 2],
+    tangent: [f64; 2],
+    length: f64,
+    /// How far off another body may be and still touch.
+    reach: f64,
+}
+
+/// The length that two lines share, and where it starts and ends along the first.
+struct Shared {
+    lines: [usize; 2],
+    ends: Ends,
+    corner: [f64; 2],
+}
+
+/// At start and end of a shared length: the node of either body that ends it.
+type Ends = [[Option<usize>; 2]; 2];
+
+/// An end of a shared length, sorted so that what ends at one node stands together.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct End {
+    bodies: [usize; 2],
+    side: usize,
+    node: usize,
+    shared: usize,
+    /// The node of the other side that ends it as well.
+    other: Option<usize>,
+}
+
+/// The lines along which bodies touch. `wanted` is asked with two bodies and an edge of each whether the first is to
+/// be side A and the second side B. By pair of bodies; several lines of one pair by their corner with smallest x and y.
+pub fn touching(
+    meshes: &[&Mesh],
+    wanted: &(dyn Fn([usize; 2], [&Edge; 2]) -> bool + Sync),
+) -> Result<Vec<Touch>> {
+    let lines: Vec<Result<Vec<Line>>> =
+        meshes.par_iter().enumerate().map(|(b, mesh)| lines(b, mesh)).collect();
+    let lines: Vec<Line> = lines.into_iter().collect::<Result<Vec<_>>>()?.concat();
+    let tree = RTree::bulk_load(lines.iter().enumerate().map(|(i, line)| Numbered(i, *line)).collect());
+    let shared: Vec<Shared> = (0..lines.len())
+        .into_par_iter()
+        .flat_map_iter(|a| {
+            let near = tree.locate_in_envelope_intersecting(lines[a].surroundings()).map(|found| found.0);
+            let lines = &lines;
+            near.filter_map(move |b| {
+                let (line_a, line_b) = (&lines[a], &lines[b]);
+                let pair = [line_a.body, line_b.body];
+                let different = pair[0] != pair[1] && wanted(pair, [&line_a.edge, &line_b.edge]);
+                if different {
+                    line_a.share(line_b).map(|(ends, corner)| Shared { lines: [a, b], ends, corner })
+                } else {
+                    None
+                }
+            })
+            .collect::<Vec<_>>()
+        })
+        .collect();
+    Ok(gather(&lines, &shared))
+}
+
+/// A line with its number, as the tree keeps it.
+struct Numbered(usize, Line);
+
+impl RTreeObject for Numbered {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> AABB<[f64; 2]> {
+        self.1.surroundings()
+    }
+}
+
+/// The boundary of a body, with the reach of every edge.
+fn lines(body: usize, mesh: &Mesh) -> Result<Vec<Line>> {
+    let mut lines: Vec<Line> = mesh.boundary()?.into_iter().map(|edge| Line::new(body, mesh, edge)).collect();
+    let mut starting: HashMap<usize, usize> = HashMap::new();
+    for (i, line) in lines.iter().enumerate() {
+        starting.insert(line.edge.nodes[0], i);
+    }
+    for i in 0..lines.len() {
+        let Some(&next) = starting.get(&lines[i].edge.nodes[1]) else { continue };
+        let (t, u) = (lines[i].tangent, lines[next].tangent);
+        let turn = (t[0] * u[1] - t[1] * u[0]).atan2(dot(t, u)).abs();
+        if turn < CORNER {
+            for line in [i, next] {
+                let length = lines[line].length;
+                lines[line].reach = lines[line].reach.max((NEAR + BEND * turn) * length);
+            }
+        }
+    }
+    Ok(lines)
+}
+
+impl Line {
+    fn new(body: usize, mesh: &Mesh, edge: Edge) -> Line {
+        let ends = [0, 1].map(|i| mesh.points[edge.nodes[i]]);
+        let along = minus(ends[1], ends[0]);
+        let length = along[0].hypot(along[1]);
+        Line { body, edge, ends, tangent: along.map(|x| x / length), length, reach: NEAR * length }
+    }
+
+    /// The box around it that its reach fills.
+    fn surroundings(&self) -> AABB<[f64; 2]> {
+        let [p, q] = self.ends;
+        let low = [0, 1].map(|d| p[d].min(q[d]) - self.reach);
+        AABB::from_corners(low, [0, 1].map(|d| p[d].max(q[d]) + self.reach))
+    }
+
+    /// The length shared with another line: what ends it on either side, and its corner with the smallest x and y.
+    fn share(&self, other: &Line) -> Option<(Ends, [f64; 2])> {
+        if dot(self.tangent, other.tangent) > AGAINST {
+            return None;
+        }
+        // along this line the other one runs backwards: its end comes first
+        let relative = [1, 0].map(|i| minus(other.ends[i], self.ends[0]));
+        let s = relative.map(|x| dot(x, self.tangent));
+        let off = relative.map(|x| x[1] * self.tangent[0] - x[0] * self.tangent[1]);
+        let (low, high) = (s[0].max(0.0), s[1].min(self.length));
+        let size = self.ends.as_flattened().iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        let shorter = self.length.min(other.length);
+        if high - low <= POINT * shorter + 8.0 * f64::EPSILON * size {
+            return None;
+        }
+        let gap = |at: f64| (off[0] + (off[1] - off[0]) * (at - s[0]) / (s[1] - s[0])).abs();
+        if gap(low).max(gap(high)) > self.reach.max(other.reach) {
+            return None;
+        }
+        let together = TOGETHER * shorter + 16.0 * f64::EPSILON * size;
+        let node = |at: f64, own: f64, line: &Line, i: usize| {
+            ((at - own).abs() <= together).then_some(line.edge.nodes[i])
+        };
+        let ends = [
+            [node(low, 0.0, self, 0), node(low, s[0], other, 1)],
+            [node(high, self.length, self, 1), node(high, s[1], other, 0)],
+        ];
+        let place = |at: f64| [0, 1].map(|d| self.ends[0][d] + at * self.tangent[d]);
+        let (p, q) = (place(low), place(high));
+        Some((ends, [p[0].min(q[0]), p[1].min(q[1])]))
+    }
+}
+
+/// Connects shared lengths that follow each other on both bodies, and sorts what comes out.
+fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
+    let pair = |i: usize| shared[i].lines.map(|line| lines[line].body);
+    // every end under the node of either side that ends it: whatever follows ends there as well
+    let mut ends: Vec<End> = Vec::new();
+    for i in 0..shared.len() {
+        for end in shared[i].ends {
+            for side in 0..2 {
+                if let Some(node) = end[side] {
+                    ends.push(End { bodies: pair(i), side, node, shared: i, other: end[1 - side] });
+                }
+            }
+        }
+    }
+    ends.sort_unstable();
+    let mut root: Vec<usize> = (0..shared.len()).collect();
+    for run in ends.chunk_by(|p, q| (p.bodies, p.side, p.node) == (q.bodies, q.side, q.node)) {
+        for (k, one) in run.iter().enumerate() {
+            for two in &run[k + 1..] {
+                let across = |end: &End| shared[end.shared].lines[1 - end.side];
+                if across(one) == across(two) || one.other.is_some() && one.other == two.other {
+                    let (p, q) = (find(&mut root, one.shared), find(&mut root, two.shared));
+                    root[p.max(q)] = p.min(q);
+                }
+            }
+        }
+    }
+    let mut pieces: HashMap<usize, Vec<usize>> = HashMap::new();
+    for i in 0..shared.len() {
+        pieces.entry(find(&mut root, i)).or_default().push(i);
+    }
+    let mut found: Vec<([usize; 2], [f64; 2], Vec<usize>)> = pieces
+        .into_values()
+        .map(|piece| {
+            let corners = piece.iter().map(|&i| shared[i].corner);
+            let low = corners.fold([f64::INFINITY; 2], |low, p| [low[0].min(p[0]), low[1].min(p[1])]);
+            (pair(piece[0]), low, piece)
+        })
+        .collect();
+    let size = extent(lines);
+    let rounded = |x: [f64; 2]| x.map(|x| (x / (TOGETHER * size)).round() as i64); // the order of equal places is no accident
+    found.sort_by_key(|(pair, low, piece)| (*pair, rounded(*low), piece[0]));
+    let touch = |(bodies, _, piece): ([usize; 2], [f64; 2], Vec<usize>)| {
+        let edges = [0, 1].map(|side| {
+            let mut of_side: Vec<usize> = piece.iter().map(|&i| shared[i].lines[side]).collect();
+            of_side.sort_unstable();
+            of_side.dedup();
+            of_side.into_iter().map(|line| lines[line].edge).collect()
+        });
+        Touch { bodies, edges }
+    };
+    found.into_iter().map(touch).collect()
+}
+
+/// The larger side of the box around all lines.
+fn extent(lines: &[Line]) -> f64 {
+    let range = |d: usize| {
+        let values = lines.iter().flat_map(|line| line.ends).map(|p| p[d]);
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    };
+    let (x, y) = (range(0), range(1));
+    (x.1 - x.0).max(y.1 - y.0)
+}
+
+fn find(root: &mut [usize], mut i: usize) -> usize {
+    while root[i] != i {
+        root[i] = root[root[i]];
+        i = root[i];
+    }
+    i
+}
+
+fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
+    [p[0] - q[0], p[1] - q[1]]
+}
+
+fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
+    p[0] * q[0] + p[1] * q[1]
+}
