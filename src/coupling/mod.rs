@@ -30,10 +30,12 @@ mod projected;
 mod refusal;
 mod seam;
 mod vector;
+mod view;
 
 pub use chain::{Chain, Run, Side};
 pub use csr::Csr;
 pub use midplane::{Midplane, Piece, Segment, Spot};
+pub use view::Share;
 
 use crate::error::Result;
 

@@ -43,7 +43,8 @@ impl Mesh {
         };
         let groups = self.groups.iter().map(|(name, group)| (name.clone(), restrict(group)));
         let groups = groups.filter(|(_, group)| !group.is_empty()).collect();
-        Ok(Mesh { file: self.file.clone(), points, cells, groups })
+        let corners = present(&self.corners, &point);
+        Ok(Mesh { file: self.file.clone(), points, cells, corners, groups })
     }
 
     /// The edges that have a cell on one side only, each with its cell on the left.
