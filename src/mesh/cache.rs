@@ -1,6 +1,6 @@
-//! Meshes on demand: one gmsh run per subdomain, side by side, and none for what has not changed.
+//! Meshes on demand: one gmsh run per geometry, side by side, and none for what has not changed.
 //!
-//! A mesh is kept as `<subdomain>-<12 hex digits>.msh`. The digits are the SHA-256 of all that decides it: the .geo
+//! A mesh is kept as `<name>-<12 hex digits>.msh`. The digits are the SHA-256 of all that decides it: the .geo
 //! and what it includes, the parameters, the options and the version of gmsh. A file appears there only whole and
 //! checked, so that its name alone tells that it is good.
 
@@ -14,11 +14,11 @@ use super::read::from_bytes;
 use super::sources::Sources;
 use crate::error::{Error, Result};
 
-/// A subdomain to be meshed.
-#[derive(Debug, Clone)]
+/// A geometry to be meshed.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Job {
-    /// Its name, the first part of the file name.
-    pub subdomain: String,
+    /// The first part of the file name: the subdomain, or what several share.
+    pub name: String,
     /// The .geo file.
     pub geo: PathBuf,
     /// Values for names that the .geo declares with DefineConstant.
@@ -57,7 +57,7 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
         }
     }
     let key = key(&sources, job, gmsh.version()?);
-    let path = cache.join(format!("{}-{key}.msh", file_name(&job.subdomain)));
+    let path = cache.join(format!("{}-{key}.msh", file_name(&job.name)));
     if sources.closed && path.is_file() {
         return Ok(Meshed { path, reused: true });
     }
@@ -94,7 +94,7 @@ fn key(sources: &Sources, job: &Job, version: &str) -> String {
     hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The name of a subdomain without what a file name cannot hold.
-fn file_name(subdomain: &str) -> String {
-    subdomain.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
+/// A name without what a file name cannot hold.
+fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
 }

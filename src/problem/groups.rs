@@ -22,10 +22,14 @@ pub(super) fn find<'a>(
     match mesh.groups.get(group) {
         Some(found) => Ok((body, Some(found))),
         None => {
-            let file = scene.subdomains[body].geo.as_ref().or(scene.subdomains[body].msh.as_ref());
-            let file = file.map_or("the mesh", String::as_str);
+            let subdomain = &scene.subdomains[body];
+            let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
+            let place = match &subdomain.surface {
+                Some(surface) => format!("on surface \"{surface}\" of {file}"),
+                None => format!("in {file}"),
+            };
             let cure = name_cure(group, mesh.groups.keys().map(String::as_str));
-            Err(scene.source.refuse(path, format!("no group \"{group}\" in {file}"), cure))
+            Err(scene.source.refuse(path, format!("no group \"{group}\" {place}"), cure))
         }
     }
 }

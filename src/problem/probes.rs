@@ -2,7 +2,7 @@
 
 use super::groups;
 use crate::assembly::{Joint, Model};
-use crate::error::Result;
+use crate::error::{Result, name_cure};
 use crate::law;
 use crate::scene::Scene;
 use crate::scene::probe::{JointField, Probe};
@@ -62,17 +62,22 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
         let path = ["output", "history", name.as_str()];
         let probe =
             Probe::parse(text, scene).map_err(|(what, cure)| scene.source.refuse(&path, what, cure))?;
-        // the scene's door has checked that the interface exists
-        let joint = |interface: &str| scene.interfaces.get_index_of(interface).unwrap_or(0);
+        let joint = |interface: &str| {
+            let found = model.joints.iter().position(|joint| joint.name == interface);
+            found.ok_or_else(|| {
+                let cure = name_cure(interface, model.joints.iter().map(|joint| joint.name.as_str()));
+                scene.source.refuse(&path, format!("no interface \"{interface}\""), cure)
+            })
+        };
         bound.push((
             name.clone(),
             match probe {
                 Probe::Joint { interface, field, fraction } => {
-                    let joint = joint(&interface);
+                    let joint = joint(&interface)?;
                     BoundProbe::Joint { joint, field, points: around(&model.joints[joint], fraction) }
                 }
                 Probe::Resultant { interface, component } => {
-                    BoundProbe::Resultant { joint: joint(&interface), component }
+                    BoundProbe::Resultant { joint: joint(&interface)?, component }
                 }
                 Probe::Displacement { group, direction } => {
                     let mean = groups::mean(scene, model, &path, &group)?;

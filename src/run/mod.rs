@@ -46,9 +46,9 @@ pub struct Options {
 pub enum Event<'a> {
     /// A stage begins.
     Stage(&'static str),
-    /// A subdomain has its mesh.
+    /// A mesh is there.
     Meshed {
-        /// The subdomain.
+        /// The subdomain, or the geometry that several share.
         name: &'a str,
         /// Its file.
         path: &'a std::path::Path,

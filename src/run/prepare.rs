@@ -8,7 +8,7 @@ use super::folder::Folder;
 use super::{Clock, Event, Listener, Options};
 use crate::error::Result;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
-use crate::problem::Problem;
+use crate::problem::{Problem, subdomain_meshes};
 use crate::scene::{self, Scene};
 
 /// A scene that is ready to be solved.
@@ -28,14 +28,17 @@ pub struct Prepared {
 
 /// Reads, meshes and binds a scene.
 pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
-    let (scene, name, folder, mut clock, files) = mesh_scene(options, listen)?;
+    let Ready { scene, name, folder, mut clock, files, file_of } = mesh_scene(options, listen)?;
     listen(Event::Stage("read meshes"));
     clock.begin("read meshes");
     let meshes = files.par_iter().map(|path| mesh::read(path)).collect::<Vec<Result<Mesh>>>();
     let meshes = meshes.into_iter().collect::<Result<Vec<Mesh>>>()?; // of several errors the first counts
+    let (meshes, mut warnings) = subdomain_meshes(&scene, meshes, &file_of)?;
     listen(Event::Stage("bind"));
     clock.begin("bind");
-    let problem = Problem::bind(&scene, meshes)?;
+    let mut problem = Problem::bind(&scene, meshes)?;
+    warnings.append(&mut problem.warnings);
+    problem.warnings = warnings;
     for joint in &problem.model.joints {
         listen(Event::Joint(joint));
     }
@@ -47,12 +50,24 @@ pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
 
 /// Meshes a scene and nothing else.
 pub fn mesh(options: &Options, listen: Listener) -> Result<PathBuf> {
-    let (_, _, mut folder, _, _) = mesh_scene(options, listen)?;
+    let mut folder = mesh_scene(options, listen)?.folder;
     folder.keep();
     Ok(folder.path().join("mesh"))
 }
 
-fn mesh_scene(options: &Options, listen: Listener) -> Result<(Scene, String, Folder, Clock, Vec<PathBuf>)> {
+/// A scene whose meshes are on disk.
+struct Ready {
+    scene: Scene,
+    name: String,
+    folder: Folder,
+    clock: Clock,
+    /// Every mesh once.
+    files: Vec<PathBuf>,
+    /// Which of them a subdomain has.
+    file_of: Vec<usize>,
+}
+
+fn mesh_scene(options: &Options, listen: Listener) -> Result<Ready> {
     listen(Event::Stage("read scene"));
     let mut clock = Clock::new("read scene");
     let scene = scene::read(&options.scene, &options.settings)?;
@@ -60,37 +75,74 @@ fn mesh_scene(options: &Options, listen: Listener) -> Result<(Scene, String, Fol
     let out = options.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
     listen(Event::Stage("mesh"));
     clock.begin("mesh");
-    let base = scene.source.folder();
-    let mut jobs = Vec::new();
-    for (name, subdomain) in &scene.subdomains {
-        for (key, file) in [("geo", &subdomain.geo), ("msh", &subdomain.msh)] {
-            let Some(file) = file else { continue };
-            let path = base.join(file);
-            if !path.is_file() {
-                let what = format!("there is no file {}", path.display());
-                let cure = format!("files are named relative to {}", base.display());
-                return Err(scene.source.refuse(&["subdomains", name, key], what, cure));
-            }
-            if key == "geo" {
-                let parameters =
-                    subdomain.parameters.iter().map(|(name, value)| (name.clone(), *value)).collect();
-                jobs.push(Job { subdomain: name.clone(), geo: path, parameters });
-            }
-        }
-    }
+    let (files, file_of) = files(&scene)?;
+    let jobs: Vec<Job> = files.iter().filter_map(Origin::job).cloned().collect();
     let folder = Folder::open(&out)?;
     let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit);
     let meshed = mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?;
     for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {
-        listen(Event::Meshed { name: &job.subdomain, path, reused: *reused });
+        listen(Event::Meshed { name: &job.name, path, reused: *reused });
     }
     let mut made = meshed.into_iter().map(|meshed| meshed.path);
-    let files = scene.subdomains.values().filter_map(|subdomain| match &subdomain.msh {
-        Some(file) => Some(base.join(file)),
-        None => made.next(),
+    let files = files.into_iter().filter_map(|file| match file {
+        Origin::Mesh(path) => Some(path),
+        Origin::Geometry(_) => made.next(),
     });
     let files = files.collect();
-    Ok((scene, name, folder, clock, files))
+    Ok(Ready { scene, name, folder, clock, files, file_of })
+}
+
+/// Where a mesh comes from.
+#[derive(Debug, PartialEq)]
+enum Origin {
+    Mesh(PathBuf),
+    Geometry(Job),
+}
+
+impl Origin {
+    fn job(&self) -> Option<&Job> {
+        match self {
+            Origin::Mesh(_) => None,
+            Origin::Geometry(job) => Some(job),
+        }
+    }
+}
+
+/// Every mesh of the scene once, and which of them a subdomain has: what several subdomains share (one geometry with
+/// the same parameters, one file) is meshed and read once.
+fn files(scene: &Scene) -> Result<(Vec<Origin>, Vec<usize>)> {
+    let base = scene.source.folder();
+    let mut files: Vec<Origin> = Vec::new();
+    let mut file_of = Vec::new();
+    for (name, subdomain) in &scene.subdomains {
+        // the scene's door has checked that there is one of them
+        let (key, file) = match (&subdomain.geo, &subdomain.msh) {
+            (Some(geo), _) => ("geo", geo),
+            (None, msh) => ("msh", msh.as_ref().unwrap_or(name)),
+        };
+        let path = base.join(file);
+        if !path.is_file() {
+            let what = format!("there is no file {}", path.display());
+            let cure = format!("files are named relative to {}", base.display());
+            return Err(scene.source.refuse(&["subdomains", name, key], what, cure));
+        }
+        let wanted = if key == "msh" {
+            Origin::Mesh(path)
+        } else {
+            let parameters =
+                subdomain.parameters.iter().map(|(name, value)| (name.clone(), *value)).collect();
+            // a mesh of several subdomains has the name of its geometry
+            let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            let name = stem.filter(|_| subdomain.surface.is_some()).unwrap_or_else(|| name.clone());
+            Origin::Geometry(Job { name, geo: path, parameters })
+        };
+        let known = files.iter().position(|file| *file == wanted);
+        file_of.push(known.unwrap_or(files.len()));
+        if known.is_none() {
+            files.push(wanted);
+        }
+    }
+    Ok((files, file_of))
 }
 
 /// `geo/shear/scene.json` is "shear", `geo/shear/stiff.json` is "shear_stiff".

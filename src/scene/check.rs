@@ -1,8 +1,7 @@
 //! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
 
-use super::{InitialGap, Interface, Load, Plane, Scene, Step, Variable, split_group};
+use super::{Load, Plane, Scene, Step, Subdomain, split_group};
 use crate::error::{Result, name_cure};
-use crate::law::Law;
 use crate::scene::probe::Probe;
 
 impl Scene {
@@ -95,6 +94,7 @@ impl Scene {
                     "give \"geo\" in place of \"msh\"",
                 ));
             }
+            self.check_shared(name, subdomain)?;
             if !self.materials.contains_key(&subdomain.material) {
                 let what = format!("no material \"{}\"", subdomain.material);
                 let cure = name_cure(&subdomain.material, self.materials.keys().map(String::as_str));
@@ -104,72 +104,26 @@ impl Scene {
         Ok(())
     }
 
-    fn check_interface(&self, name: &str, interface: &Interface) -> Result<()> {
-        let path = ["interfaces", name];
-        self.check_name(&path, name)?;
-        if self.subdomains.contains_key(name) {
-            let cure = "rename one of them: both name a file of results";
-            return Err(self.source.refuse(&path, format!("\"{name}\" is also a subdomain"), cure));
-        }
-        for (key, side) in [("side_a", &interface.side_a), ("side_b", &interface.side_b)] {
-            let path = ["interfaces", name, key];
-            if side.names().is_empty() {
-                return Err(self.source.refuse(&path, "no curve", "name one, such as \"lower.top\""));
+    /// Subdomains of one mesh are different surfaces of it.
+    fn check_shared(&self, name: &str, subdomain: &Subdomain) -> Result<()> {
+        let same = |other: &Subdomain| {
+            (&other.geo, &other.msh, &other.parameters)
+                == (&subdomain.geo, &subdomain.msh, &subdomain.parameters)
+                && (other.surface == subdomain.surface
+                    || other.surface.is_none()
+                    || subdomain.surface.is_none())
+        };
+        let before = self.subdomains.iter().take_while(|(other, _)| *other != name);
+        let Some((other, twin)) = before.into_iter().find(|(_, other)| same(other)) else { return Ok(()) };
+        let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("", String::as_str);
+        let (key, what) = match (&subdomain.surface, &twin.surface) {
+            (Some(surface), Some(_)) => {
+                ("surface", format!("\"{other}\" is the surface \"{surface}\" of {file} already"))
             }
-            for group in side.names() {
-                self.check_group(&path, group)?;
-                if split_group(group).1.is_none() {
-                    let what = format!("\"{group}\" is a whole body");
-                    return Err(self.source.refuse(
-                        &path,
-                        what,
-                        format!("name a curve of it, such as \"{group}.top\""),
-                    ));
-                }
-            }
-        }
-        if let Some(both) = interface.side_a.names().iter().find(|a| interface.side_b.names().contains(a)) {
-            let what = format!("\"{both}\" is on both sides");
-            return Err(self.source.refuse(&path, what, "a joint lies between two different curves"));
-        }
-        self.check_gap(name, interface)?;
-        for (i, value) in interface.initial_traction.iter().enumerate() {
-            if value.uses(Variable::LoadFactor) {
-                let path = ["interfaces", name, "initial_traction", &i.to_string()];
-                let what = format!("load_factor in {value}");
-                return Err(self.source.refuse(&path, what, "an initial traction is there before any load"));
-            }
-        }
-        let tolerance = interface.law_tolerance;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            let path = ["interfaces", name, "law_tolerance"];
-            return Err(self.source.refuse(
-                &path,
-                format!("{tolerance} is no tolerance"),
-                "it lies between 0 and 1, such as 1e-4",
-            ));
-        }
-        interface
-            .law
-            .check()
-            .map_err(|law| self.source.refuse(&["interfaces", name, "law", law.key], law.what, law.cure))
-    }
-
-    fn check_gap(&self, name: &str, interface: &Interface) -> Result<()> {
-        let path = ["interfaces", name, "initial_gap"];
-        let Some(gap) = interface.initial_gap else { return Ok(()) };
-        if !matches!(interface.law, Law::Coulomb(_)) {
-            let what = "this law knows no initial gap";
-            let cure = "only \"type\": \"coulomb\" does: take that law or leave \"initial_gap\" out";
-            return Err(self.source.refuse(&path, what, cure));
-        }
-        match gap {
-            InitialGap::Uniform(gap) if !(gap >= 0.0 && gap.is_finite()) => {
-                let what = format!("{gap} is no distance");
-                Err(self.source.refuse(&path, what, "give a number, zero or more, or \"geometry\""))
-            }
-            _ => Ok(()),
-        }
+            _ => ("", format!("\"{other}\" and \"{name}\" are the same bodies of {file}")),
+        };
+        let path: Vec<&str> = ["subdomains", name, key].into_iter().filter(|part| !part.is_empty()).collect();
+        Err(self.source.refuse(&path, what, "give each its own \"surface\" of the mesh"))
     }
 
     fn check_step(&self, index: &str, step: &Step) -> Result<()> {
@@ -225,7 +179,7 @@ impl Scene {
     }
 
     /// A name that becomes a file name: letters, digits, `_` and `-`.
-    fn check_name(&self, path: &[&str], name: &str) -> Result<()> {
+    pub(super) fn check_name(&self, path: &[&str], name: &str) -> Result<()> {
         let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
         if good && !name.starts_with('-') {
             return Ok(());
@@ -235,7 +189,7 @@ impl Scene {
     }
 
     /// The subdomain of a group must exist; whether it has that group is known when its mesh is.
-    fn check_group(&self, path: &[&str], group: &str) -> Result<()> {
+    pub(super) fn check_group(&self, path: &[&str], group: &str) -> Result<()> {
         let subdomain = split_group(group).0;
         if self.subdomains.contains_key(subdomain) {
             return Ok(());

@@ -7,6 +7,8 @@ mod check;
 pub mod expression;
 mod functions;
 mod grammar;
+mod interface;
+mod interface_check;
 pub mod probe;
 mod read;
 mod schema;
@@ -16,6 +18,7 @@ mod source;
 mod value;
 
 pub use expression::{Place, Variable};
+pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
 pub use read::{parse, read};
 pub use schema::scene_schema;
 pub use solution::{Solution, Strategy, Tangent};
@@ -25,8 +28,6 @@ pub use value::Value;
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::law::{LAW_TOLERANCE, Law};
 
 /// A whole problem: bodies, joints, load history, what to write.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
@@ -83,6 +84,10 @@ pub struct Subdomain {
     /// gmsh mesh (MSH 4.1), relative to the scene file. Either this or `geo`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub msh: Option<String>,
+    /// Physical surface of a mesh that several subdomains share: the subdomain consists of its cells, and the nodes on
+    /// curves that it shares with others are its own. Absent: the whole mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<String>,
     /// Name of its material.
     pub material: String,
     /// Numbers handed to gmsh in place of the defaults of the `.geo` (its `DefineConstant`).
@@ -101,99 +106,6 @@ pub struct Material {
     /// Mass density [mass / volume], for gravity.
     #[serde(default)]
     pub density: f64,
-}
-
-/// A joint between two sides.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Interface {
-    /// Curve or curves of side A. The normal points from A to B.
-    pub side_a: OneOrMany,
-    /// Curve or curves of side B.
-    pub side_b: OneOrMany,
-    /// How the unmatched sides are joined.
-    #[serde(default)]
-    pub coupling: CouplingKind,
-    /// Polynomial order of the grid of `projected`.
-    #[serde(default)]
-    pub grid: Grid,
-    /// Where in its interval the law acts.
-    #[serde(default)]
-    pub quadrature: Quadrature,
-    /// The law.
-    pub law: Law,
-    /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
-    #[serde(default = "law_tolerance")]
-    pub law_tolerance: f64,
-    /// How far apart the sides are to the law; without it they touch, whatever the meshes say. For `coulomb` only.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub initial_gap: Option<InitialGap>,
-    /// Initial traction (n, t) [stress] (paper eq. 10); in a formula s runs along chain A with n on its left.
-    #[serde(default)]
-    pub initial_traction: [Value; 2],
-}
-
-/// One name or a list of names.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum OneOrMany {
-    /// One name.
-    One(String),
-    /// Several names.
-    Many(Vec<String>),
-}
-
-/// Initial distance of the sides.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum InitialGap {
-    /// The same everywhere [length], zero or more.
-    Uniform(f64),
-    /// What it says.
-    Drawn(DrawnGap),
-}
-
-/// Initial distance as drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum DrawnGap {
-    /// The distance of the meshes, point by point; an overlap counts as zero.
-    Geometry,
-}
-
-/// How two unmatched sides are joined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum CouplingKind {
-    /// The jump is projected on a grid of the mid-plane; good at every stiffness.
-    #[default]
-    Projected,
-    /// The law acts at points of every segment (paper eq. 14); exact to the paper, fragile when stiff.
-    Pointwise,
-}
-
-/// Polynomial order of the grid of `projected`. A side with linear edges always makes it linear.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Grid {
-    /// Quadratic between quadratic quadrilaterals, else linear: the trace of a T6 mesh does not bear a quadratic traction.
-    #[default]
-    Auto,
-    /// Linear, two law points per cell.
-    Linear,
-    /// Quadratic, three law points per cell.
-    Quadratic,
-}
-
-/// Quadrature along the mid-plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Quadrature {
-    /// Gauss points, inside the interval.
-    #[default]
-    Gauss,
-    /// Lobatto points, the ends included.
-    Lobatto,
 }
 
 /// A stage of loading. Supports and loads stay in force in later steps unless replaced.
@@ -291,16 +203,6 @@ pub enum Fields {
     None,
 }
 
-impl OneOrMany {
-    /// The names in order.
-    pub fn names(&self) -> &[String] {
-        match self {
-            OneOrMany::One(name) => std::slice::from_ref(name),
-            OneOrMany::Many(names) => names,
-        }
-    }
-}
-
 impl Direction {
     /// Component number.
     pub fn component(self) -> usize {
@@ -331,10 +233,6 @@ pub fn split_group(name: &str) -> (&str, Option<&str>) {
 
 fn one() -> f64 {
     1.0
-}
-
-fn law_tolerance() -> f64 {
-    LAW_TOLERANCE
 }
 
 fn one_increment() -> usize {

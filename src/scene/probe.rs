@@ -3,7 +3,7 @@
 //! `joint.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
 //! group, `joint.resultant_t` the force across a joint, `energy.stored`, `energy.dissipated`, `work.external`.
 
-use super::{Direction, Scene};
+use super::{Direction, JOINED, Scene};
 use crate::error::name_cure;
 
 /// A question to an increment.
@@ -75,8 +75,15 @@ impl Probe {
             let cure = "write something like joint.traction_t@0.5, upper.top.displacement_y or energy.stored";
             return Err((format!("\"{text}\" is not a probe"), cure.into()));
         };
-        if scene.interfaces.contains_key(object) {
+        if scene.entry(object).is_some() {
             return joint(object, field);
+        }
+        if scene.interfaces.contains_key(object) {
+            let what = format!("\"{object}\" makes an interface of every pair that touches");
+            return Err((
+                what,
+                format!("name one of them, such as {object}{JOINED}a{JOINED}b for side A on a and B on b"),
+            ));
         }
         if scene.subdomains.contains_key(super::split_group(object).0) {
             let direction = match field {

@@ -53,7 +53,7 @@ impl Place {
 
     pub fn job(&self, parameters: &[(&str, f64)]) -> Job {
         let parameters = parameters.iter().map(|(name, value)| (name.to_string(), *value)).collect();
-        Job { subdomain: "block".into(), geo: self.geo.clone(), parameters }
+        Job { name: "block".into(), geo: self.geo.clone(), parameters }
     }
 
     pub fn mesh_with(&self, gmsh: &Gmsh, parameters: &[(&str, f64)]) -> Result<Meshed> {

@@ -1,0 +1,85 @@
+//! `between`: an interface of every pair of subdomains that touch and whose names fit the two patterns.
+//!
+//! Its name is `<entry>~<A>~<B>`; where a pair touches along several lines they are `…~1`, `…~2`, in the order of the
+//! corners with smallest x, then y. A fits the first pattern and B the second; where both fit both, A comes first in
+//! the scene.
+
+use std::collections::HashMap;
+
+use wildmatch::WildMatch;
+
+use super::plan::{Curve, Plan};
+use crate::assembly::Model;
+use crate::error::Result;
+use crate::mesh::{Edge, Mesh, touching};
+use crate::scene::{Interface, JOINED, Scene};
+
+/// What interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
+#[derive(Default)]
+pub(super) struct Taken {
+    edges: HashMap<(usize, [usize; 3]), Vec<(usize, usize)>>,
+    interfaces: usize,
+}
+
+impl Taken {
+    /// Takes the sides of one interface.
+    pub(super) fn add(&mut self, sides: &[Vec<Curve>; 2]) {
+        for (side, curves) in sides.iter().enumerate() {
+            for (curve, edge) in curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge))) {
+                self.edges.entry((curve.body, edge.nodes)).or_default().push((self.interfaces, side));
+            }
+        }
+        self.interfaces += 1;
+    }
+
+    /// True if one interface has both edges, on different sides.
+    fn both(&self, bodies: [usize; 2], edges: [&Edge; 2]) -> bool {
+        let of = |i: usize| self.edges.get(&(bodies[i], edges[i].nodes)).map_or(&[][..], Vec::as_slice);
+        of(0).iter().any(|one| of(1).iter().any(|two| one.0 == two.0 && one.1 != two.1))
+    }
+}
+
+/// The interfaces of one entry of the scene.
+pub(super) fn pairs<'a>(
+    scene: &'a Scene,
+    model: &Model,
+    (entry, interface): (&'a str, &'a Interface),
+    patterns: &[String; 2],
+    taken: &Taken,
+) -> Result<Vec<Plan<'a>>> {
+    let fits: Vec<[bool; 2]> = scene.subdomains.keys().map(|name| fit(patterns, name)).collect();
+    let bodies: Vec<usize> = (0..fits.len()).filter(|&body| fits[body] != [false; 2]).collect();
+    let meshes: Vec<&Mesh> = bodies.iter().map(|&body| &model.bodies[body].mesh).collect();
+    let is_pair = |[a, b]: [usize; 2]| fits[a][0] && fits[b][1] && (a < b || !(fits[b][0] && fits[a][1]));
+    let wanted = |pair: [usize; 2], edges: [&Edge; 2]| {
+        let pair = pair.map(|i| bodies[i]);
+        is_pair(pair) && !taken.both(pair, edges)
+    };
+    let touches = touching(&meshes, &wanted)?;
+    if touches.is_empty() {
+        let what = format!("no subdomain like \"{}\" touches another like \"{}\"", patterns[0], patterns[1]);
+        let cure = "boundaries touch where they lie on each other, up to a thousandth of an edge";
+        return Err(scene.source.refuse(&["interfaces", entry, "between"], what, cure));
+    }
+    let mut plans = Vec::new();
+    for lines in touches.chunk_by(|one, two| one.bodies == two.bodies) {
+        for (i, touch) in lines.iter().enumerate() {
+            let pair = touch.bodies.map(|body| bodies[body]);
+            let [a, b] = pair.map(|body| model.bodies[body].name.as_str());
+            let mut name = [entry, a, b].join(&JOINED.to_string());
+            if lines.len() > 1 {
+                name.push_str(&format!("{JOINED}{}", i + 1));
+            }
+            let side = |i: usize, own: &str, other: &str| {
+                let (body, edges) = (pair[i], touch.edges[i].clone());
+                vec![Curve { body, name: format!("{own} where it touches {other}"), edges }]
+            };
+            plans.push(Plan { name, entry, interface, sides: [side(0, a, b), side(1, b, a)] });
+        }
+    }
+    Ok(plans)
+}
+
+fn fit(patterns: &[String; 2], name: &str) -> [bool; 2] {
+    [0, 1].map(|i| WildMatch::new(&patterns[i]).matches(name))
+}

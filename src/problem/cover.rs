@@ -1,0 +1,84 @@
+//! Every place of a side belongs to one interface: none is joined twice, and what is not joined is told.
+
+use std::collections::BTreeMap;
+
+use super::plan::Plan;
+use crate::assembly::Model;
+use crate::error::Result;
+use crate::scene::Scene;
+
+/// Two interfaces may reach this far into each other where they meet. Of the edge.
+const MEETING: f64 = 1e-2;
+/// A side of which less is missing is joined whole. Of its length.
+const WHOLE: f64 = 1e-9;
+
+/// An edge, from its smaller to its larger node of the model.
+type Key = [usize; 2];
+
+/// What an interface takes of an edge.
+struct Taken {
+    joint: usize,
+    from: f64,
+    to: f64,
+}
+
+/// Refuses a place that two interfaces join; warns of sides, named by the scene, that are joined in part.
+pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec<String>> {
+    let edges = taken(model);
+    for (nodes, of_edge) in &edges {
+        let twice = of_edge
+            .windows(2)
+            .find(|pair| pair[0].joint != pair[1].joint && pair[1].from < pair[0].to - MEETING);
+        if let Some([one, two]) = twice {
+            let (first, second) = (one.joint.min(two.joint), one.joint.max(two.joint));
+            let body = &model.bodies[model.bodies.partition_point(|body| body.first_node <= nodes[0]) - 1];
+            let [x, y] = body.mesh.points[nodes[0] - body.first_node];
+            let name = |joint: usize| &plans[joint].name;
+            let what = format!("{} and {} both join {} at ({x}, {y})", name(first), name(second), body.name);
+            let cure = "every place of a side belongs to one interface: name other curves or patterns";
+            return Err(scene.source.refuse(&["interfaces", plans[second].entry], what, cure));
+        }
+    }
+    let mut warnings = Vec::new();
+    for plan in plans.iter().filter(|plan| plan.interface.between.is_none()) {
+        for (curves, label) in plan.sides.iter().zip(["A", "B"]) {
+            let (mut whole, mut joined) = (0.0, 0.0);
+            for (curve, edge) in curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge))) {
+                let body = &model.bodies[curve.body];
+                let [p, q] = [0, 1].map(|i| body.mesh.points[edge.nodes[i]]);
+                let length = (q[0] - p[0]).hypot(q[1] - p[1]);
+                whole += length;
+                let of_edge = edges.get(&ordered([0, 1].map(|i| body.first_node + edge.nodes[i])));
+                joined += length * of_edge.into_iter().flatten().map(|taken| taken.to - taken.from).sum::<f64>();
+            }
+            if joined < whole * (1.0 - WHOLE) {
+                let (name, share, length) = (&plan.name, 100.0 * joined / whole, joined);
+                warnings.push(format!(
+                    "interface {name}: {share:.4} % of side {label} is joined (length {length:.6}), the rest faces nothing"
+                ));
+            }
+        }
+    }
+    Ok(warnings)
+}
+
+/// What the joints take of every edge, in order along it.
+fn taken(model: &Model) -> BTreeMap<Key, Vec<Taken>> {
+    let mut edges: BTreeMap<Key, Vec<Taken>> = BTreeMap::new();
+    for (joint, of_model) in model.joints.iter().enumerate() {
+        for share in of_model.coupling.shares() {
+            for side in 0..2 {
+                let nodes = of_model.coupling.nodes(side, share.edges[side]);
+                let [start, end] = share.taken[side];
+                let (from, to) = if nodes[0] < nodes[1] { (start, end) } else { (1.0 - end, 1.0 - start) };
+                edges.entry(ordered(nodes)).or_default().push(Taken { joint, from, to });
+            }
+        }
+    }
+    edges.values_mut().for_each(|of_edge| of_edge.sort_by(|p, q| p.from.total_cmp(&q.from)));
+    edges
+}
+
+fn ordered([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}

@@ -1,0 +1,83 @@
+//! The mesh of every subdomain: a whole file, or the part of a shared file that one physical surface marks.
+
+use std::path::PathBuf;
+
+use rayon::prelude::*;
+
+use crate::error::{Result, name_cure};
+use crate::mesh::{Group, Mesh};
+use crate::scene::Scene;
+
+/// The meshes of the subdomains in their order, and what of the files no subdomain takes. `files` holds every file
+/// once; `file_of` says which of them a subdomain has.
+pub fn subdomain_meshes(
+    scene: &Scene,
+    files: Vec<Mesh>,
+    file_of: &[usize],
+) -> Result<(Vec<Mesh>, Vec<String>)> {
+    let mut owner: Vec<Vec<usize>> = files.iter().map(|mesh| vec![usize::MAX; mesh.cells.len()]).collect();
+    let mut cells: Vec<Option<&[usize]>> = Vec::new();
+    for (number, (name, subdomain)) in scene.subdomains.iter().enumerate() {
+        let mesh = &files[file_of[number]];
+        let Some(surface) = &subdomain.surface else {
+            cells.push(None);
+            continue;
+        };
+        let path = ["subdomains", name, "surface"];
+        let Some(Group::Cells(of_surface)) = mesh.groups.get(surface) else {
+            let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
+            let what = match mesh.groups.get(surface) {
+                Some(other) => format!("\"{surface}\" of {file} is a {}, not a surface", other.kind()),
+                None => format!("no surface \"{surface}\" in {file}"),
+            };
+            let surfaces = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Cells(_)));
+            let cure = name_cure(surface, surfaces.map(|(name, _)| name.as_str()));
+            return Err(scene.source.refuse(&path, what, cure));
+        };
+        for &cell in of_surface {
+            let before = std::mem::replace(&mut owner[file_of[number]][cell], number);
+            if before != usize::MAX {
+                let [x, y] = mesh.points[mesh.cells.nodes(cell)[0]];
+                let other = &scene.subdomains[before].surface;
+                let other = other.as_deref().unwrap_or_default();
+                let what = format!("\"{surface}\" and \"{other}\" share cells, near ({x}, {y})");
+                return Err(scene.source.refuse(&path, what, "every cell belongs to one subdomain"));
+            }
+        }
+        cells.push(Some(of_surface));
+    }
+    let mut warnings = Vec::new();
+    for (file, mesh) in files.iter().enumerate() {
+        let shared = (0..cells.len()).any(|number| file_of[number] == file && cells[number].is_some());
+        if shared {
+            warnings.extend(left_out(mesh, &owner[file]));
+        }
+    }
+    let take = |number: usize| match cells[number] {
+        Some(kept) => files[file_of[number]].part(kept),
+        None => Ok(files[file_of[number]].clone()),
+    };
+    if cells.iter().all(Option::is_none) && in_order(&files, file_of) {
+        return Ok((files, warnings));
+    }
+    let meshes: Vec<Result<Mesh>> = (0..cells.len()).into_par_iter().map(take).collect();
+    Ok((meshes.into_iter().collect::<Result<_>>()?, warnings))
+}
+
+/// True if every subdomain has the file of its own number.
+fn in_order(files: &[Mesh], file_of: &[usize]) -> bool {
+    files.len() == file_of.len() && file_of.iter().enumerate().all(|(number, &file)| number == file)
+}
+
+/// What no subdomain takes of a mesh that some share.
+fn left_out(mesh: &Mesh, owner: &[usize]) -> Option<String> {
+    let free = |cells: &Vec<usize>| cells.iter().all(|&cell| owner[cell] == usize::MAX);
+    let unused = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Cells(cells) if free(cells)));
+    let names: Vec<String> = unused.map(|(name, _)| format!("\"{name}\"")).collect();
+    let left = owner.iter().filter(|&&number| number == usize::MAX).count();
+    let file = mesh.file.file_name().map_or_else(PathBuf::new, PathBuf::from);
+    (left > 0).then(|| match names.len() {
+        0 => format!("{}: {left} cells belong to no subdomain", file.display()),
+        _ => format!("{}: no subdomain takes surface {}, {left} cells", file.display(), names.join(", ")),
+    })
+}
