@@ -1,0 +1,203 @@
+//! What a user may do to physical groups and meshes, end to end: it works, or one error names the groups and exits 2.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A square of triangles; `@` is the height of its bottom.
+const SQUARE: &str =
+    "Point(1) = {0, @, 0}; Point(2) = {1, @, 0}; Point(3) = {1, @ + 1, 0}; Point(4) = {0, @ + 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = 4; Transfinite Curve {2, 4} = 3;
+Physical Point(\"corner\") = {1}; Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {3};
+Physical Surface(\"body\") = {1};
+";
+
+const SCENE: &str = r#"{
+  "plane": "strain",
+  "subdomains": {
+    "lower": { "geo": "lower.geo", "material": "rock" },
+    "upper": { "geo": "upper.geo", "material": "rock" }
+  },
+  "materials": { "rock": { "young": 1e4, "poisson": 0.0 } },
+  "interfaces": {
+    "joint": {
+      "side_a": "lower.top", "side_b": "upper.bottom",
+      "law": { "type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e7 }
+    }
+  },
+  "steps": [ {
+    "name": "compression",
+    "fix": { "lower.bottom": ["y"], "lower.corner": ["x"] },
+    "load": { "upper.top": { "pressure": 10.0 } }
+  } ],
+  "output": { "history": { "top": "upper.top.displacement_y" } }
+}
+"#;
+
+fn midplane(folder: &Path, upper: &str, scene: &str, command: &str) -> Output {
+    std::fs::write(folder.join("lower.geo"), SQUARE.replace('@', "0")).unwrap();
+    std::fs::write(folder.join("upper.geo"), upper.replace('@', "1")).unwrap();
+    std::fs::write(folder.join("scene.json"), scene).unwrap();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_midplane"));
+    program.current_dir(folder).args([command, ".", "-o", "out"]).output().unwrap()
+}
+
+/// The one error of a changed geometry and scene.
+fn refusal(upper: &str, scene: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let output = midplane(folder.path(), upper, scene, "run");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(!folder.path().join("out").exists(), "{message}");
+    message
+}
+
+#[test]
+fn b30_groups_that_contradict_each_other_are_refused_naming_both() {
+    let upper = |from: &str, to: &str| {
+        assert!(SQUARE.contains(from));
+        SQUARE.replace(from, to)
+    };
+    let scene = |from: &str, to: &str| {
+        assert!(SCENE.contains(from));
+        SCENE.replace(from, to)
+    };
+    for (case, geo, scene, expected) in [
+        (
+            "one name in two dimensions",
+            upper("\"corner\"", "\"body\""),
+            SCENE.into(),
+            vec!["upper.geo: physical point ", " and physical surface ", " are both called \"body\""],
+        ),
+        (
+            "one name twice",
+            upper("Physical Surface", "Physical Curve(\"top\") = {1}; Physical Surface"),
+            SCENE.into(),
+            vec!["upper.geo: gmsh ended with exit code 1", "Could not modify physical line"],
+        ),
+        (
+            "one number for two names",
+            upper(
+                "Physical Surface",
+                "Physical Curve(\"ceiling\", 2) = {3}; Physical Curve(\"floor\", 2) = {1}; Physical Surface",
+            ),
+            SCENE.into(),
+            vec!["upper.geo: gmsh ended with exit code 1", "Could not modify physical line"],
+        ),
+        (
+            "a missing group",
+            upper("\"top\"", "\"roof\""),
+            SCENE.into(),
+            vec!["upper.top", "no group \"top\" in upper.geo; there is corner, bottom, roof, body"],
+        ),
+        ("an empty group", upper("\"top\") = {3}", "\"top\") = {}"), SCENE.into(), vec!["upper.geo", "top"]),
+        (
+            "a group of a curve that is not there",
+            upper("\"top\") = {3}", "\"top\") = {9}"),
+            SCENE.into(),
+            vec!["upper.geo", "\"top\""],
+        ),
+        (
+            "a curve in two groups of one side",
+            upper("Physical Surface", "Physical Curve(\"seat\") = {1}; Physical Surface"),
+            scene("\"upper.bottom\"", "[\"upper.bottom\", \"upper.seat\"]"),
+            vec!["interfaces.joint.side_b: \"upper.bottom\" and \"upper.seat\" hold the same edge, at ("],
+        ),
+        (
+            "a curve in two groups of two interfaces",
+            upper("Physical Surface", "Physical Curve(\"seat\") = {1}; Physical Surface"),
+            scene(
+                "\"interfaces\": {",
+                r#""interfaces": { "other": { "side_a": "upper.seat", "side_b": "lower.top", "law": { "type": "elastic", "normal_stiffness": 1, "tangential_stiffness": 1 } },"#,
+            ),
+            vec![
+                "interfaces.joint: other and joint both join ",
+                "every place of a side belongs to one interface",
+            ],
+        ),
+    ] {
+        let message = refusal(&geo, &scene);
+        for expected in expected {
+            assert!(message.contains(expected), "{case}: {message}\n  should contain\n{expected}");
+        }
+    }
+    // what is in two groups for two purposes is fine, and what nothing uses is told by a check
+    let folder = tempfile::tempdir().unwrap();
+    let twice = upper("Physical Surface", "Physical Curve(\"roof\") = {3}; Physical Surface");
+    let output = midplane(folder.path(), &twice, SCENE, "check");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{message}");
+    assert!(message.contains("warning: subdomain upper: nothing uses its group corner, roof"), "{message}");
+}
+
+#[test]
+fn b28_a_slit_inside_one_body_is_refused_by_name() {
+    let message = refusal(SQUARE, &SCENE.replace("\"lower.top\"", "\"upper.top\""));
+    let expected = "interfaces.joint: both sides lie on \"upper\"; a joint lies between two subdomains";
+    assert!(message.contains(expected), "{message}");
+    // a real slit: two curves in one place, each the boundary of one side of the body
+    let slit =
+        "Point(1) = {0, @, 0}; Point(2) = {1, @, 0}; Point(3) = {1, @ + 1, 0}; Point(4) = {0, @ + 1, 0};
+Point(5) = {0.3, @ + 0.5, 0}; Point(6) = {0.7, @ + 0.5, 0}; Point(7) = {0.3, @ + 0.5, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1}; Line(5) = {5, 6}; Line(6) = {6, 5};
+Curve Loop(1) = {1 : 4}; Curve Loop(2) = {5, 6}; Plane Surface(1) = {1, 2};
+Physical Point(\"corner\") = {1}; Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {3};
+Physical Curve(\"below\") = {5}; Physical Curve(\"above\") = {6}; Physical Surface(\"body\") = {1};
+";
+    let sides = "\"side_a\": \"lower.top\", \"side_b\": \"upper.bottom\"";
+    let scene = SCENE.replace(sides, "\"side_a\": \"upper.below\", \"side_b\": \"upper.above\"");
+    assert!(refusal(slit, &scene).contains("both sides lie on \"upper\""));
+    // and patterns never pair a body with itself
+    let message = refusal(SQUARE, &SCENE.replace(sides, "\"between\": [\"upper\", \"up*\"]"));
+    assert!(message.contains("no subdomain like \"upper\" touches another like \"up*\""), "{message}");
+}
+
+/// Two squares under 10 MPa shorten by 10 · 2/E + 10/K_N, whatever gmsh makes of the upper one.
+#[test]
+fn b37_every_kind_of_plane_mesh_carries_a_uniform_stress() {
+    let mixed = SQUARE
+        .replace(
+            "Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};",
+            "Point(5) = {0.4, @, 0}; Point(6) = {0.4, @ + 1, 0};
+Line(5) = {5, 6}; Line(7) = {1, 5}; Line(8) = {5, 2}; Line(9) = {3, 6}; Line(10) = {6, 4};
+Curve Loop(1) = {7, 5, 10, 4}; Curve Loop(2) = {8, 2, 9, -5}; Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Recombine Surface {2};",
+        )
+        .replace("Transfinite Curve {1, 3} = 4;", "Transfinite Curve {7 : 10} = 3;")
+        .replace("\"bottom\") = {1}", "\"bottom\") = {7, 8}")
+        .replace("\"top\") = {3}", "\"top\") = {9, 10}")
+        .replace("\"body\") = {1}", "\"body\") = {1, 2}");
+    let with = |base: &str, options: &str| format!("{base}{options}\n");
+    for (case, upper) in [
+        ("T3", with(SQUARE, "")),
+        ("recombined", with(SQUARE, "Recombine Surface {1};")),
+        ("T6", with(SQUARE, "Mesh.ElementOrder = 2;")),
+        ("Q8", with(SQUARE, "Recombine Surface {1}; Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;")),
+        ("Q9", with(SQUARE, "Recombine Surface {1}; Mesh.ElementOrder = 2;")),
+        ("mixed T3 and Q4", with(&mixed, "")),
+        ("mixed T6 and Q8", with(&mixed, "Mesh.ElementOrder = 2; Mesh.SecondOrderIncomplete = 1;")),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = midplane(folder.path(), &upper, SCENE, "run");
+        assert!(output.status.success(), "{case}: {}", String::from_utf8_lossy(&output.stderr));
+        let history = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+        let top: f64 = history.lines().last().unwrap().split(',').nth(5).unwrap().parse().unwrap();
+        let exact = -10.0 * 2.0 / 1e4 - 10.0 / 1e7;
+        assert!((top / exact - 1.0).abs() < 1e-10, "{case}: {top}, exact {exact}");
+    }
+}
+
+#[test]
+fn b37_a_mesh_off_its_plane_is_refused() {
+    let lifted = SQUARE.replace("Point(3) = {1, @ + 1, 0}", "Point(3) = {1, @ + 1, 0.01}");
+    let message = refusal(&lifted, SCENE);
+    assert!(
+        message.contains("upper.geo: node ") && message.contains(" is off the plane, |z| = "),
+        "{message}"
+    );
+    // rounding of a rotated drawing is no third dimension
+    let folder = tempfile::tempdir().unwrap();
+    let rounded = SQUARE.replace("Point(3) = {1, @ + 1, 0}", "Point(3) = {1, @ + 1, 1e-12}");
+    assert!(midplane(folder.path(), &rounded, SCENE, "check").status.success());
+}
