@@ -72,6 +72,10 @@ results/law/shear.png: geo/shear/scene.json geo/shear/path.json pipeline/law_pat
 	$(MIDPLANE) law geo/shear joint geo/shear/path.json --tolerance 1e-6 > results/law/shear.csv
 	$(PYTHON) pipeline/law_path.py results/law/shear.csv --scene geo/shear/scene.json --interface joint -o $@
 
+check-%: $(MIDPLANE) $(VENV)  ## look at the joints of a scene before it is solved: results/<scene>/check/*.png
+	$(MIDPLANE) check geo/$* -o results/$* --plot
+	$(PYTHON) pipeline/draw_check.py results/$*/check
+
 $(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
 	cargo build --release --locked
 
@@ -120,7 +124,7 @@ clean:            ## remove everything made here: results, build, Python environ
 
 help:             ## this list
 	@echo "make [target]; without one: all"
-	@sed -nE 's/^([a-z]+):[^#]*## /  \1\t/p' Makefile | expand -t 18
+	@sed -nE 's/^([a-z%-]+):[^#]*## /  \1\t/p' Makefile | expand -t 18
 	@for name in $(SCENES); do \
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 18

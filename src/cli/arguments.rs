@@ -56,10 +56,16 @@ Example:
     /// Do everything short of solving: sizes, densities, segments, gaps, stiffness number, warnings
     #[command(after_help = "\
 Example:
-  midplane check geo/cantilever --set interfaces.joint.law.normal_stiffness=1e9")]
+  midplane check geo/cantilever --set interfaces.joint.law.normal_stiffness=1e9
+  midplane check geo/four_blocks --plot   writes results/four_blocks/check/*.vtu
+
+The ratio is that of the numbers of edges, the kink the largest turn between two edges of a side.")]
     Check {
         #[command(flatten)]
         common: Common,
+        /// Write chains, projections, segments, grid and normals as VTU; pipeline/draw_check.py draws them
+        #[arg(long)]
+        plot: bool,
     },
     /// Drive one point of an interface's law along a path, CSV on standard output
     #[command(after_help = "\

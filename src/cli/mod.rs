@@ -1,6 +1,7 @@
 //! Arguments, messages, exit codes. Printing happens here only.
 
 mod arguments;
+mod check;
 mod report;
 mod show;
 
@@ -13,6 +14,7 @@ use arguments::{Arguments, Command};
 use crate::error::{Error, Result};
 use crate::law::Stepping;
 use crate::law::path;
+use crate::output;
 use crate::run;
 use crate::scene;
 
@@ -43,11 +45,16 @@ fn act(arguments: Arguments) -> Result<()> {
             show.finish();
             Ok(())
         }
-        Command::Check { common } => {
+        Command::Check { common, plot } => {
             let mut show = show::Show::new(common.quiet);
             let mut prepared = run::prepare(&common.options(), &mut |event| show.event(event))?;
             prepared.folder.keep();
-            show.check(&prepared);
+            check::print(&show, &prepared);
+            if plot {
+                let folder =
+                    output::write_geometry(&prepared.folder.path().join("check"), &prepared.problem.model)?;
+                show.line(&format!("wrote {}", folder.display()));
+            }
             Ok(())
         }
         Command::Law { scene, interface, path, substeps, tolerance, settings } => {

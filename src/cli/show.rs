@@ -7,8 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
 use crate::output::Row;
-use crate::problem::stiffness_number;
-use crate::run::{Done, Event, Prepared, Totals, memory::gigabytes};
+use crate::run::{Done, Event, Totals, memory::gigabytes};
 
 /// Prints events.
 pub(super) struct Show {
@@ -32,13 +31,21 @@ impl Show {
     }
 
     /// One line, above the bar if there is one.
-    fn line(&self, text: &str) {
+    pub(super) fn line(&self, text: &str) {
         if self.quiet {
             return;
         }
         match &self.bar {
             Some(bar) => bar.suspend(|| println!("{text}")),
             None => println!("{text}"),
+        }
+    }
+
+    /// A warning is worth its line also when everything else is quiet.
+    pub(super) fn warning(&self, text: &str) {
+        match &self.bar {
+            Some(bar) => bar.suspend(|| eprintln!("warning: {text}")),
+            None => eprintln!("warning: {text}"),
         }
     }
 
@@ -54,11 +61,7 @@ impl Show {
                 self.line(&format!("{how:<8} {name:<12} {}", path.display()));
             }
             Event::Joint(joint) => self.line(&describe(joint)),
-            // a warning is worth its line also when everything else is quiet
-            Event::Warning(text) => match &self.bar {
-                Some(bar) => bar.suspend(|| eprintln!("warning: {text}")),
-                None => eprintln!("warning: {text}"),
-            },
+            Event::Warning(text) => self.warning(text),
             Event::Increment { row, number, of, total, totals } => {
                 if self.totals.is_none() {
                     self.begin(total, totals);
@@ -122,43 +125,6 @@ impl Show {
         }
         self.line(&format!("wrote    {}", done.collection.display()));
     }
-
-    /// The table of `midplane check`.
-    pub(super) fn check(&self, prepared: &Prepared) {
-        self.finish();
-        let problem = &prepared.problem;
-        let model = &problem.model;
-        self.line(&format!("{:<14} {:>9} {:>9}  shapes", "subdomain", "nodes", "cells"));
-        for body in &model.bodies {
-            let mut shapes: Vec<&str> = body.mesh.cells.shapes.iter().map(|shape| shape.label()).collect();
-            shapes.sort_unstable();
-            shapes.dedup();
-            let (nodes, cells) = (body.mesh.points.len(), body.mesh.cells.len());
-            self.line(&format!("{:<14} {nodes:>9} {cells:>9}  {}", body.name, shapes.join(" ")));
-        }
-        self.line(&format!(
-            "{:<14} {:>11} {:>6} {:>9} {:>6} {:>12} {:>11} {:>11} {:>9}",
-            "interface", "edges A:B", "ratio", "segments", "grid", "length", "gap min", "gap max", "K_N h/E"
-        ));
-        for (joint, (law, _)) in model.joints.iter().zip(&problem.laws) {
-            let midplane = &joint.coupling.midplane;
-            let (a, b) = (midplane.a.edges(), midplane.b.edges());
-            self.line(&format!(
-                "{:<14} {:>11} {:>6.2} {:>9} {:>6} {:>12.6} {:>11.2e} {:>11.2e} {:>9.2e}",
-                joint.name,
-                format!("{a}:{b}"),
-                a as f64 / b as f64,
-                midplane.segments.len(),
-                joint.coupling.grid.len(),
-                midplane.length,
-                midplane.gap[0],
-                midplane.gap[1],
-                stiffness_number(model, joint, law)
-            ));
-        }
-        let held = problem.stages.first().map_or(0, |stage| stage.held.iter().filter(|&&held| held).count());
-        self.line(&format!("{} dofs, {held} held in the first step", model.dofs()));
-    }
 }
 
 /// A row of the table; a mark if the increment had to be cut in parts.
@@ -180,14 +146,13 @@ fn increment(row: &Row, number: usize, of: usize, halved: usize) -> String {
 }
 
 fn describe(joint: &Joint) -> String {
-    let midplane = &joint.coupling.midplane;
+    let coupling = &joint.coupling;
+    let [a, b] = [0, 1].map(|side| coupling.edges(side));
     format!(
-        "joined   {:<12} {}:{} edges, {} segments, {} law points, length {:.6}",
+        "joined   {:<12} {a}:{b} edges, {} segments, {} law points, length {:.6}",
         joint.name,
-        midplane.a.edges(),
-        midplane.b.edges(),
-        midplane.segments.len(),
-        joint.coupling.points.len(),
-        midplane.length
+        coupling.midplane.segments.len(),
+        coupling.points.len(),
+        coupling.midplane.length
     )
 }

@@ -16,6 +16,7 @@ mod gmsh;
 mod groups;
 mod msh;
 mod part;
+mod quality;
 mod read;
 mod sources;
 mod touch;

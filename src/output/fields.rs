@@ -26,7 +26,7 @@ pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) 
     grid
 }
 
-fn mesh(body: &Body) -> Grid {
+pub(super) fn mesh(body: &Body) -> Grid {
     let cells = &body.mesh.cells;
     Grid {
         points: body.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),

@@ -4,10 +4,12 @@
 
 mod fields;
 mod files;
+mod geometry;
 mod vtu;
 mod writer;
 
 pub use files::{write_json, write_whole};
+pub use geometry::write_geometry;
 pub use writer::{Row, Writer};
 
 use crate::continuum::Stresses;

@@ -15,6 +15,8 @@ mod quantity;
 mod rigid;
 mod stage;
 mod stiffness;
+mod survey;
+mod unused;
 mod warnings;
 
 pub use gap::Gaps;
@@ -24,6 +26,8 @@ pub use parts::subdomain_meshes;
 pub use probes::{BoundProbe, ProbeInput};
 pub use stage::Stage;
 pub use stiffness::stiffness_number;
+pub use survey::Survey;
+pub use unused::unused_groups;
 
 use crate::assembly::{Body, Model};
 use crate::continuum::{Elasticity, Plane};

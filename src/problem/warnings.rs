@@ -7,6 +7,10 @@ use crate::scene::CouplingKind;
 
 /// A gap below this is rounding. Of the length of the joint.
 const GAP_SEEN: f64 = 1e-9;
+/// Coordinates that resolve no finer than this reach the tractions. Of the smallest edge.
+const RESOLVED: f64 = 1e-10;
+/// Cells with a lower scaled Jacobian are bad (Verdict accepts quadrilaterals from here).
+const BAD: f64 = 0.3;
 
 /// The warnings of one joint.
 pub(super) fn of_joint(model: &Model, joint: &Joint, plan: &Plan) -> Vec<String> {
@@ -33,5 +37,46 @@ pub(super) fn of_joint(model: &Model, joint: &Joint, plan: &Plan) -> Vec<String>
         warnings
             .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
     }
+    warnings.extend(far_away(joint));
+    for curve in plan.sides.iter().flatten() {
+        let body = &model.bodies[curve.body];
+        let mut cells: Vec<usize> = curve.edges.iter().map(|edge| edge.cell).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        let bad: Vec<(f64, usize)> = cells
+            .iter()
+            .map(|&cell| (body.mesh.quality(cell), cell))
+            .filter(|(quality, _)| *quality < BAD)
+            .collect();
+        if let Some((worst, cell)) = bad.iter().min_by(|p, q| p.0.total_cmp(&q.0)) {
+            let [x, y] = body.mesh.points[body.mesh.cells.nodes(*cell)[0]];
+            warnings.push(format!(
+                "interface {name}: {} of {} cells of {} beside it have a scaled Jacobian below {BAD}, the worst {worst:.2} near ({x:.4}, {y:.4})",
+                bad.len(),
+                cells.len(),
+                body.name
+            ));
+        }
+    }
     warnings
+}
+
+/// A joint so far from the origin, for its edges, that rounding of its coordinates is seen.
+fn far_away(joint: &Joint) -> Option<String> {
+    let (mut farthest, mut smallest) = (0.0_f64, f64::INFINITY);
+    let coupling = &joint.coupling;
+    for side in 0..2 {
+        for e in 0..coupling.edges(side) {
+            let line = coupling.line(side, e);
+            farthest = line.as_flattened().iter().fold(farthest, |far, x| far.max(x.abs()));
+            smallest = smallest.min(coupling.chord(side, e));
+        }
+    }
+    let resolved = f64::EPSILON * farthest / smallest;
+    (resolved > RESOLVED).then(|| {
+        format!(
+            "interface {}: {farthest:.1e} away from the origin, coordinates resolve {resolved:.0e} of its smallest edge; move the origin",
+            joint.name
+        )
+    })
 }

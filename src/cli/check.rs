@@ -1,0 +1,60 @@
+//! The tables of `midplane check`: bodies, joints, what is held.
+
+use super::show::Show;
+use crate::problem::{Survey, unused_groups};
+use crate::run::Prepared;
+
+/// Prints what there is, short of solving it.
+pub(super) fn print(show: &Show, prepared: &Prepared) {
+    show.finish();
+    let problem = &prepared.problem;
+    let model = &problem.model;
+    let names =
+        model.bodies.iter().map(|body| &body.name).chain(model.joints.iter().map(|joint| &joint.name));
+    let width = names.map(|name| name.chars().count()).max().unwrap_or(0).max(12);
+    show.line(&format!("{:<width$} {:>9} {:>9}  shapes", "subdomain", "nodes", "cells"));
+    for body in &model.bodies {
+        let mut shapes: Vec<&str> = body.mesh.cells.shapes.iter().map(|shape| shape.label()).collect();
+        shapes.sort_unstable();
+        shapes.dedup();
+        let (nodes, cells) = (body.mesh.points.len(), body.mesh.cells.len());
+        show.line(&format!("{:<width$} {nodes:>9} {cells:>9}  {}", body.name, shapes.join(" ")));
+    }
+    if !model.joints.is_empty() {
+        show.line(&format!(
+            "{:<width$} {:>11} {:>6} {:>8} {:>6} {:>11} {:>9} {:>9} {:>7} {:>9}",
+            "interface",
+            "edges A:B",
+            "ratio",
+            "segments",
+            "grid",
+            "length",
+            "gap min",
+            "gap max",
+            "kink",
+            "K_N h/E"
+        ));
+    }
+    for (joint, (law, _)) in model.joints.iter().zip(&problem.laws) {
+        let survey = Survey::of(model, joint, law);
+        let [a, b] = survey.edges;
+        show.line(&format!(
+            "{:<width$} {:>11} {:>6.2} {:>8} {:>6} {:>11.6} {:>9.1e} {:>9.1e} {:>6.1}° {:>9.2e}",
+            joint.name,
+            format!("{a}:{b}"),
+            survey.ratio(),
+            survey.segments,
+            survey.grid_nodes,
+            survey.length,
+            survey.gap[0],
+            survey.gap[1],
+            survey.kink,
+            survey.stiffness_number
+        ));
+    }
+    let held = problem.stages.first().map_or(0, |stage| stage.held.iter().filter(|&&held| held).count());
+    show.line(&format!("{} dofs, {held} held in the first step", model.dofs()));
+    for warning in unused_groups(&prepared.scene, model) {
+        show.warning(&warning);
+    }
+}

@@ -1,0 +1,133 @@
+//! The geometry of the joints before anything is solved, as VTU to look at: `midplane check --plot`.
+
+use std::path::{Path, PathBuf};
+
+use super::files::write_whole;
+use super::vtu::{Array, Grid};
+use crate::assembly::{Body, Joint, Model};
+use crate::error::{Error, Result};
+
+/// What a line or point of the file is.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    /// A segment of C.
+    Segment = 0,
+    /// A cell of the grid.
+    GridCell = 1,
+    /// An edge of side A.
+    EdgeA = 2,
+    /// An edge of side B.
+    EdgeB = 3,
+    /// From the end of a segment to its place on side A.
+    FootA = 4,
+    /// The same on side B.
+    FootB = 5,
+    /// A law point, with its normal.
+    LawPoint = 6,
+}
+
+/// VTK's vertex, line and polyline.
+const TYPES: [u8; 3] = [1, 3, 4];
+
+/// Writes `<subdomain>.vtu` with the quality of every cell and `<interface>.vtu` with chains A and B, segments, their
+/// parents and feet, grid, law points and normals into a folder, and returns it.
+pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
+    remove_earlier(folder)?;
+    for body in &model.bodies {
+        write_whole(&folder.join(format!("{}.vtu", body.name)), &quality(body).encode())?;
+    }
+    for joint in &model.joints {
+        write_whole(&folder.join(format!("{}.vtu", joint.name)), &geometry(joint).encode())?;
+    }
+    Ok(folder.to_path_buf())
+}
+
+fn remove_earlier(folder: &Path) -> Result<()> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
+    let files = entries.flatten().map(|entry| entry.path());
+    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "vtu")) {
+        std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
+    }
+    Ok(())
+}
+
+fn quality(body: &Body) -> Grid {
+    let mut grid = super::fields::mesh(body);
+    grid.cell_data =
+        vec![Array::float("quality", 1, (0..body.mesh.cells.len()).map(|c| body.mesh.quality(c)))];
+    grid
+}
+
+/// Lines and points with what they are.
+#[derive(Default)]
+struct Drawing {
+    grid: Grid,
+    normals: Vec<f64>,
+    /// Kind, number and parent edges of every line and point.
+    cells: [Vec<i64>; 4],
+}
+
+impl Drawing {
+    fn add(&mut self, kind: Kind, number: usize, parents: [i64; 2], points: &[[f64; 2]], normal: [f64; 2]) {
+        for p in points {
+            self.grid.connectivity.push(self.grid.points.len() as i64 / 3);
+            self.grid.points.extend([p[0], p[1], 0.0]);
+            self.normals.extend([normal[0], normal[1], 0.0]);
+        }
+        self.grid.offsets.push(self.grid.connectivity.len() as i64);
+        self.grid.types.push(TYPES[points.len() - 1]);
+        for (list, value) in self.cells.iter_mut().zip([kind as i64, number as i64, parents[0], parents[1]]) {
+            list.push(value);
+        }
+    }
+}
+
+fn geometry(joint: &Joint) -> Grid {
+    let coupling = &joint.coupling;
+    let mut drawing = Drawing::default();
+    for (side, kind) in [Kind::EdgeA, Kind::EdgeB].into_iter().enumerate() {
+        for e in 0..coupling.edges(side) {
+            let mut parents = [-1; 2];
+            parents[side] = e as i64;
+            drawing.add(kind, e, parents, &coupling.line(side, e), [0.0; 2]);
+        }
+    }
+    for (number, share) in coupling.shares().into_iter().enumerate() {
+        let parents = share.edges.map(|e| e as i64);
+        drawing.add(Kind::Segment, number, parents, &share.places, [0.0; 2]);
+        for (end, place) in share.places.into_iter().enumerate() {
+            for (side, kind) in [Kind::FootA, Kind::FootB].into_iter().enumerate() {
+                let line = coupling.line(side, share.edges[side]);
+                let foot = foot(&line, share.taken[side][end]);
+                drawing.add(kind, number, parents, &[place, foot], [0.0; 2]);
+            }
+        }
+    }
+    for (number, cell) in coupling.cells().into_iter().enumerate() {
+        drawing.add(Kind::GridCell, number, [-1; 2], &cell, [0.0; 2]);
+    }
+    for (number, point) in coupling.points.iter().enumerate() {
+        drawing.add(Kind::LawPoint, number, [-1; 2], &[point.position], point.rotation[0]);
+    }
+    let Drawing { mut grid, normals, cells: [kind, number, edge_a, edge_b] } = drawing;
+    grid.point_data = vec![Array::float("normal", 3, normals)];
+    grid.cell_data = vec![
+        Array::int("kind", kind),
+        Array::int("number", number),
+        Array::int("edge_a", edge_a),
+        Array::int("edge_b", edge_b),
+    ];
+    grid
+}
+
+/// The place on an edge at a fraction of its ξ.
+fn foot(line: &[[f64; 2]], fraction: f64) -> [f64; 2] {
+    let weights = match line.len() {
+        2 => vec![1.0 - fraction, fraction],
+        _ => {
+            let xi = 2.0 * fraction - 1.0; // nodes at −1, 0, 1
+            vec![0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)]
+        }
+    };
+    [0, 1].map(|d| line.iter().zip(&weights).map(|(p, w)| w * p[d]).sum())
+}

@@ -1,0 +1,88 @@
+//! The geometry of a joint in numbers, as `midplane check` prints it.
+
+use super::stiffness::stiffness_number;
+use crate::assembly::{Joint, Model};
+use crate::coupling::Coupling;
+use crate::law::Law;
+
+/// A joint in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Survey {
+    /// Edges of A and of B that are joined.
+    pub edges: [usize; 2],
+    /// Segments of the mid-plane.
+    pub segments: usize,
+    /// Nodes of the grid; none for `pointwise`.
+    pub grid_nodes: usize,
+    /// Length of the mid-plane [length].
+    pub length: f64,
+    /// Smallest and largest gap; negative where the sides overlap [length].
+    pub gap: [f64; 2],
+    /// Largest turn between successive edges of a side [degrees].
+    pub kink: f64,
+    /// K_N h/E.
+    pub stiffness_number: f64,
+}
+
+impl Survey {
+    /// Measures a joint.
+    pub fn of(model: &Model, joint: &Joint, law: &Law) -> Survey {
+        let coupling = &joint.coupling;
+        let shares = coupling.shares();
+        let joined = [0, 1].map(|side| {
+            let mut edges: Vec<usize> = shares.iter().map(|share| share.edges[side]).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            edges
+        });
+        let kink = [0, 1].map(|side| largest_turn(coupling, side, &joined[side]));
+        Survey {
+            edges: [joined[0].len(), joined[1].len()],
+            segments: shares.len(),
+            grid_nodes: coupling.grid.len(),
+            length: coupling.midplane.length,
+            gap: coupling.midplane.gap,
+            kink: kink[0].max(kink[1]).to_degrees(),
+            stiffness_number: stiffness_number(model, joint, law),
+        }
+    }
+
+    /// Edges of A for one of B.
+    pub fn ratio(&self) -> f64 {
+        self.edges[0] as f64 / self.edges[1] as f64
+    }
+}
+
+/// The largest angle between the end of a joined edge and the start of the next [rad].
+fn largest_turn(coupling: &Coupling, side: usize, joined: &[usize]) -> f64 {
+    let follows = |pair: &&[usize]| coupling.nodes(side, pair[0])[1] == coupling.nodes(side, pair[1])[0];
+    let turns = joined.windows(2).filter(follows).map(|pair| {
+        let [t, u] = [(pair[0], true), (pair[1], false)].map(|(e, end)| tangent(&coupling.line(side, e), end));
+        (t[0] * u[1] - t[1] * u[0]).atan2(t[0] * u[0] + t[1] * u[1]).abs()
+    });
+    turns.fold(0.0, f64::max)
+}
+
+/// Direction of an edge at its start or end, of any length.
+fn tangent(line: &[[f64; 2]], end: bool) -> [f64; 2] {
+    [0, 1].map(|d| match (line, end) {
+        ([p, m, q], false) => 4.0 * (m[d] - p[d]) - (q[d] - p[d]), // x′(−1) of the parabola
+        ([p, m, q], true) => 4.0 * (q[d] - m[d]) - (q[d] - p[d]),
+        _ => line[line.len() - 1][d] - line[0][d],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_has_its_slope_at_both_ends() {
+        // y = x² on −1 … 1
+        let line = [[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]];
+        for (end, slope) in [(false, -2.0), (true, 2.0)] {
+            let [x, y] = tangent(&line, end);
+            assert_eq!(y / x, slope);
+        }
+    }
+}

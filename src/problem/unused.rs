@@ -1,0 +1,47 @@
+//! Groups that the scene names nowhere: a misspelt or forgotten one is among them.
+
+use std::collections::HashSet;
+
+use serde_json::Value;
+
+use crate::assembly::Model;
+use crate::mesh::Group;
+use crate::scene::Scene;
+
+/// One line for every subdomain with groups that nothing in the scene names. Surfaces do not count: every mesh has one.
+pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<String> {
+    let mut texts = HashSet::new();
+    // whatever part of a scene names groups does so by its keys and texts
+    collect(&serde_json::to_value(scene).unwrap_or_default(), &mut texts);
+    let used = |name: &str| {
+        let within = format!("{name}.");
+        texts.contains(name) || texts.iter().any(|text| text.starts_with(&within))
+    };
+    let lines = model.bodies.iter().map(|body| {
+        let groups = body.mesh.groups.iter().filter(|(_, group)| !matches!(group, Group::Cells(_)));
+        // those who share the mesh share its groups
+        let sharing = || model.bodies.iter().filter(|other| other.mesh.file == body.mesh.file);
+        let used = |name: &str| sharing().any(|other| used(&format!("{}.{name}", other.name)));
+        let unused = groups.map(|(name, _)| name).filter(|name| !used(name));
+        (&body.name, unused.map(String::as_str).collect::<Vec<&str>>())
+    });
+    let told = lines.filter(|(_, unused)| !unused.is_empty());
+    told.map(|(body, unused)| format!("subdomain {body}: nothing uses its group {}", unused.join(", ")))
+        .collect()
+}
+
+fn collect(value: &Value, texts: &mut HashSet<String>) {
+    match value {
+        Value::String(text) => {
+            texts.insert(text.clone());
+        }
+        Value::Array(list) => list.iter().for_each(|value| collect(value, texts)),
+        Value::Object(object) => {
+            for (key, value) in object {
+                texts.insert(key.clone());
+                collect(value, texts);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,133 @@
+//! Claim: `midplane check` says of every interface what it is, warns of what spoils it, and `--plot` writes it to look at.
+
+mod common;
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use common::{bind, even, rectangle};
+use midplane::shape::Shape;
+
+/// A square of n × 2 quadrilaterals with its lower left corner at (x, y).
+fn square(y: f64, n: usize) -> String {
+    format!(
+        "Point(1) = {{0, {y}, 0}}; Point(2) = {{1, {y}, 0}}; Point(3) = {{1, {y} + 1, 0}}; Point(4) = {{0, {y} + 1, 0}};
+Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(3) = {{3, 4}}; Line(4) = {{4, 1}};
+Curve Loop(1) = {{1 : 4}}; Plane Surface(1) = {{1}};
+Transfinite Curve {{1, 3}} = {n} + 1; Transfinite Curve {{2, 4}} = 3; Transfinite Surface {{1}}; Recombine Surface {{1}};
+Physical Curve(\"bottom\") = {{1}}; Physical Curve(\"top\") = {{3}}; Physical Curve(\"left\") = {{4}};
+Physical Surface(\"body\") = {{1}};\n"
+    )
+}
+
+const SCENE: &str = r#"{
+  "plane": "strain",
+  "subdomains": {
+    "lower": { "geo": "lower.geo", "material": "rock" },
+    "upper": { "geo": "upper.geo", "material": "rock" }
+  },
+  "materials": { "rock": { "young": 1e4, "poisson": 0.0 } },
+  "interfaces": {
+    "joint": {
+      "side_a": "lower.top", "side_b": "upper.bottom",
+      "law": { "type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e7 }
+    }
+  },
+  "steps": [ {
+    "name": "compression",
+    "fix": { "lower.bottom": ["x", "y"] },
+    "load": { "upper.top": { "pressure": 10.0 } }
+  } ],
+  "output": { "history": { "u": "upper.left.displacement_y" } }
+}
+"#;
+
+fn midplane(folder: &Path, arguments: &[&str]) -> Output {
+    std::fs::write(folder.join("lower.geo"), square(0.0, 3)).unwrap();
+    std::fs::write(folder.join("upper.geo"), square(1.0, 5)).unwrap();
+    std::fs::write(folder.join("scene.json"), SCENE).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
+    command.current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// 3 edges against 5: 3 + 5 − 1 segments, three grid cells, K_N h/E = 1e7 · ⅓ / 1e4.
+#[test]
+fn the_table_has_every_number_of_a_joint() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = midplane(folder.path(), &["check", ".", "-o", "out"]);
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{err}");
+    let row = out.lines().find(|line| line.starts_with("joint ")).unwrap_or_else(|| panic!("{out}"));
+    let columns: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(columns, ["joint", "3:5", "0.60", "7", "4", "1.000000", "0.0e0", "0.0e0", "0.0°", "3.33e2"]);
+    // the group that no key and no probe names is told, in a check only
+    assert_eq!(err, "warning: subdomain lower: nothing uses its group left\n");
+    let run = midplane(folder.path(), &["run", ".", "-o", "out"]);
+    assert!(run.status.success() && run.stderr.is_empty(), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(!folder.path().join("out/check").exists());
+}
+
+#[test]
+fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let checks = folder.path().join("out/check");
+    std::fs::create_dir_all(&checks).unwrap();
+    std::fs::write(checks.join("old.vtu"), "of another scene").unwrap();
+    let output = midplane(folder.path(), &["check", ".", "-o", "out", "--plot"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut names: Vec<_> =
+        std::fs::read_dir(&checks).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["joint.vtu", "lower.vtu", "upper.vtu"]);
+    let bytes = std::fs::read(checks.join("joint.vtu")).unwrap();
+    let head = String::from_utf8_lossy(&bytes);
+    let (edges, segments, cells, law_points) = (3 + 5, 7, 3, 2 * 3);
+    let lines = edges + segments * (1 + 4) + cells;
+    let expected =
+        format!("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", 2 * lines + law_points, lines + law_points);
+    assert!(head.contains(&expected), "{expected}\n{}", &head[..800]);
+    for array in ["normal", "kind", "number", "edge_a", "edge_b"] {
+        assert!(head.contains(&format!("Name=\"{array}\"")), "{array}");
+    }
+    let lower = std::fs::read(checks.join("lower.vtu")).unwrap();
+    assert!(String::from_utf8_lossy(&lower).contains("Name=\"quality\""));
+}
+
+/// The warnings of two squares on each other, mapped into the plane.
+fn warnings(n: [usize; 2], settings: &str, place: impl Fn(f64, f64) -> [f64; 2] + Copy) -> Vec<String> {
+    let text = SCENE.replace("\"law\":", &format!("{settings} \"law\":"));
+    let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), Shape::Quadrilateral4, place);
+    bind(&text, vec![mesh(n[0], 0.0), mesh(n[1], 1.0)]).unwrap().warnings
+}
+
+#[test]
+fn what_spoils_a_joint_is_warned_of_and_nothing_else() {
+    let flat = |x: f64, y: f64| [x, y];
+    let pointwise = "\"coupling\": \"pointwise\",";
+    assert!(warnings([3, 5], "", flat).is_empty());
+    assert!(warnings([4, 4], pointwise, flat).is_empty(), "matched");
+    let found = warnings([3, 5], pointwise, flat);
+    assert!(found.len() == 1 && found[0].contains("oscillates"), "{found:?}");
+    // coordinates near x₀ are multiples of ε x₀ or so: 2.2e-16 · 1e6 / 0.2 = 1.1e-9 of the smallest edge
+    let far = warnings([3, 5], "", |x, y| [x + 1e6, y]);
+    assert!(far.len() == 1, "{far:?}");
+    assert!(
+        far[0].contains("1.0e6 away from the origin, coordinates resolve 1e-9 of its smallest edge"),
+        "{far:?}"
+    );
+    assert!(warnings([3, 5], "", |x, y| [x + 1e3, y]).is_empty());
+    assert!(warnings([3, 5], "", |x, y| [1e6 * (x + 1.0), 1e6 * y]).is_empty(), "large, not far");
+    // leaning so that one angle is α, the scaled Jacobian is sin α
+    let leaning = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        warnings([3, 5], "", move |x, y| [x + cos * y, sin * y])
+    };
+    assert!(leaning(18.0).is_empty(), "sin 18° = 0.309");
+    let bad = leaning(12.0); // sin 12° = 0.208
+    assert_eq!(bad.len(), 2, "{bad:?}");
+    assert!(
+        bad[0].contains("3 of 3 cells of lower beside it have a scaled Jacobian below 0.3, the worst 0.21"),
+        "{bad:?}"
+    );
+    assert!(bad[1].contains("5 of 5 cells of upper"), "{bad:?}");
+}
