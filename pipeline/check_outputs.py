@@ -259,7 +259,7 @@ def check(results, scene, faults):
         return ""
     fields = interfaces.get(last, {})
     residual = rows[-1]["residual"] if rows else 0.0
-    whole, part = check_balance(results, scene, summary["equilibrium"], fields, residual, faults)
+    whole, part = check_balance(results, scene, summary, fields, residual, faults)
     energy = max((abs(row["energy_balance"]) for row in rows), default=0.0)
     return (
         f"{len(files)} VTU files, increments: {len(rows)}; loads and reactions balance to {whole:.1e}, "

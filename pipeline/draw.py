@@ -21,6 +21,7 @@ from matplotlib.ticker import MaxNLocator
 
 import page
 from exact import SOLUTIONS
+from joints import entry_of, subdomains_of
 from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
 from traction import draw_traction
 
@@ -123,7 +124,7 @@ def spread(centres, most=32):
     return nearest[first], side
 
 
-def draw_coupling(results, name, interface, title, units):
+def draw_coupling(results, name, sides, title, units):
     """Side A below, side B above, pulled apart; between them segments, grid and law points."""
     points, segments, cells, parents = results.midplane(name)
     law_points = results.interfaces[name].points[:, :2]
@@ -149,8 +150,8 @@ def draw_coupling(results, name, interface, title, units):
     sheet.axis.spines["left"].set_visible(False)
 
     parts = []
-    for side, shift in (("side_a", -gap / 2), ("side_b", gap / 2)):
-        for subdomain in subdomains_of(interface[side]):
+    for side, shift in zip(sides, (-gap / 2, gap / 2), strict=True):
+        for subdomain in side:
             mesh = results.subdomains[subdomain].copy()
             mesh.points[:, :2] = pull(lay(mesh.points[:, :2]), shift)
             parts.append(mesh)
@@ -204,12 +205,6 @@ def pulling(lines, size):
     return pull
 
 
-def subdomains_of(side):
-    """Subdomains of one side of an interface, which is a group or a list of groups."""
-    groups = [side] if isinstance(side, str) else side
-    return sorted({group.partition(".")[0] for group in groups})
-
-
 def ends_of_edges(segments, parents):
     """Points where the nodes of a side meet the mid-plane: there the parent edge changes."""
     change = np.flatnonzero(np.diff(parents)) + 1
@@ -227,16 +222,17 @@ def draw_midplane(axis, points, segments, cells, half):
 
 
 def parse_exact(text):
-    """COMPONENT=VALUE[@FROM:TO], such as t=-1.5@0.6:1.4: component, both ends or None, the value at both."""
+    """[INTERFACE.]COMPONENT=VALUE[@FROM:TO], such as t=-1.5@0.6:1.4: interface, component, both ends or None, values."""
     try:
         component, _, rest = text.partition("=")
+        interface, _, component = component.rpartition(".")
         value, _, part = rest.partition("@")
         if component not in ("n", "t") or part.count(":") != bool(part):
             raise ValueError
         places = [float(end) for end in part.split(":")] if part else None
-        return component, places, [float(value)] * 2
+        return interface, component, places, [float(value)] * 2
     except ValueError:
-        message = f"{text} is not n=VALUE or t=VALUE, with or without @FROM:TO"
+        message = f"{text} is not n=VALUE or t=VALUE, perhaps with INTERFACE. before or @FROM:TO behind it"
         raise argparse.ArgumentTypeError(message) from None
 
 
@@ -254,7 +250,7 @@ def parse_arguments():
     many = {"action": "append", "default": []}
     parser.add_argument("--compare", help="another run, for the tractions", metavar="LABEL=RESULTS", **many)
     exact = "an exact traction (n or t), on part of the interface if FROM and TO are given"
-    parser.add_argument("--exact", help=exact, metavar="n=VALUE[@FROM:TO]", type=parse_exact, **many)
+    parser.add_argument("--exact", help=exact, metavar="[INTERFACE.]n=VALUE[@FROM:TO]", type=parse_exact, **many)
     solution = "the exact solution of this scene, for its tractions"
     parser.add_argument("--solution", help=solution, choices=SOLUTIONS)
     parser.add_argument("--label", help="name of this run beside others, default: its coupling")
@@ -276,21 +272,22 @@ def main():
     for other in arguments.compare:
         label, _, folder = other.partition("=")
         others.append((label, Results(Path(folder), scene)))
-    interfaces = {name: scene["interfaces"][name] for name in results.interfaces}
     known = arguments.exact
     if arguments.solution:
         solution = SOLUTIONS[arguments.solution](scene, results.subdomains)
-        known += [(component, *curve) for component, curve in solution.traction.items()]
-    for name, interface in interfaces.items():
-        label = arguments.label or interface.get("coupling", "projected")
-        draw_traction(results, name, interface["law"], label, others, known, title, units)
+        known += [("", component, *curve) for component, curve in solution.traction.items()]
+    for name in results.interfaces:
+        entry = entry_of(scene, name)
+        label = arguments.label or entry.get("coupling", "projected")
+        here = [values for interface, *values in known if interface in ("", name)]
+        draw_traction(results, name, entry["law"], label, others, here, title, units)
     if not page.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return
     draw_displacement(results, title, units)
     draw_principal_stress(results, title, units)
-    for name, interface in interfaces.items():
-        draw_coupling(results, name, interface, title, units)
+    for name in results.interfaces:
+        draw_coupling(results, name, subdomains_of(scene, name), title, units)
 
 
 if __name__ == "__main__":

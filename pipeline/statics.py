@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from joints import subdomains_of
+
 BALANCE = 1e-10  # of the largest force; where the solution is iterated, no better than its own residual
 
 
@@ -13,19 +15,9 @@ def resultant(grid, thickness):
     return thickness * grid["length"] @ traction
 
 
-def sides(interface):
-    """Subdomains of side A and of side B, as the scene names them."""
-    names = []
-    for side in ("side_a", "side_b"):
-        groups = interface.get(side, [])
-        groups = [groups] if isinstance(groups, str) else groups
-        names.append({group.partition(".")[0] for group in groups})
-    return names
-
-
-def check_balance(results, scene, equilibrium, interfaces, residual, faults):
+def check_balance(results, scene, summary, interfaces, residual, faults):
     """Forces on the whole model and on each subdomain sum to zero. Returns the largest error of either."""
-    allowed = max(BALANCE, residual)
+    allowed, equilibrium = max(BALANCE, residual), summary["equilibrium"]
     forces = {name: [own["load"], own["reaction"]] for name, own in equilibrium["subdomains"].items()}
     size = np.abs(list(forces.values())).max(initial=np.finfo(float).tiny)
 
@@ -34,13 +26,13 @@ def check_balance(results, scene, equilibrium, interfaces, residual, faults):
 
     whole = error([equilibrium["load"], equilibrium["reaction"]])
     faults.expect(whole <= allowed, f"{results}: loads and reactions leave {whole:.1e} of the largest force")
-    for name, interface in scene.get("interfaces", {}).items():
-        a, b = sides(interface)
+    for name in summary["sizes"]["interfaces"]:
+        a, b = subdomains_of(scene, name)
         if name not in interfaces or len(a) != 1 or len(b) != 1:
             return whole, None  # not stored, or of several subdomains at one side
         force = resultant(interfaces[name], scene.get("thickness", 1.0))
-        forces[a.pop()].append(force)
-        forces[b.pop()].append(-force)
+        forces[a[0]].append(force)
+        forces[b[0]].append(-force)
     errors = {subdomain: error(parts) for subdomain, parts in forces.items()}
     for subdomain, rest in errors.items():
         faults.expect(
