@@ -52,7 +52,7 @@ def draw_joint(joint, meshes, units, folder):
     """Both sides pulled apart along the normals; between them segments, grid and law points."""
     shift = APART * joint.extent
     count = {kind: len(lines) for kind, lines in joint.lines.items()}
-    subtitle = f"{count[SEGMENT]} segments, {count[GRID]} cells of the grid, {count[LAW_POINT]} law points"
+    subtitle = f"{count[SEGMENT]} segments, {count[GRID]} cells of the grid, {len(joint.law_points)} law points"
     points = np.concatenate([joint.ends, joint.law_points])
     air = 3 * shift
     bounds = [(low - air, high + air) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
