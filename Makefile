@@ -108,11 +108,13 @@ lint:             ## format and clippy, warnings are errors
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
 
-docs: $(SCENES) law   ## renew the pictures of the README
+docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/compression/pictures/coupling_joint.png docs/compression_coupling.png
 	cp results/compression/pictures/principal_stress.png docs/compression_stress.png
 	cp results/cantilever/pictures/traction_joint.png docs/cantilever_traction.png
 	cp results/ring/pictures/coupling_joint.png docs/ring_coupling.png
+	cp results/four_blocks/pictures/displacement.png docs/four_blocks.png
+	cp results/four_blocks/check/joints~sw~nw.png docs/four_blocks_check.png
 	cp results/law/shear.png docs/law_shear.png
 	cp results/shear/pictures/example2.png docs/shear_example2.png
 	cp results/shear_box/pictures/traction_joint.png docs/shear_box_traction.png
