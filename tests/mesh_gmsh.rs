@@ -138,7 +138,7 @@ fn awkward_file_names_are_only_names() {
     {
         let place = Place::new(name, BLOCK);
         let mut job = place.job(&[]);
-        job.subdomain = "../odd name".into();
+        job.name = "../odd name".into();
         let meshed = mesh_all(&Gmsh::default(), &place.cache(), &[job]).unwrap();
         check_block(&read(&meshed[0].path).unwrap(), false);
         assert_eq!(meshed[0].path.parent().unwrap(), place.cache());

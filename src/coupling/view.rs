@@ -63,10 +63,4 @@ impl Coupling {
     fn chain(&self, side: usize) -> &Chain {
         [&self.midplane.a, &self.midplane.b][side]
     }
-
-    /// Length of an edge; of a curved one, from node to node [length].
-    pub fn length(&self, e: usize) -> f64 {
-        let line = self.line(e);
-        line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum()
-    }
 }

@@ -14,10 +14,13 @@ use crate::error::Result;
 use crate::mesh::{Edge, Mesh, touching};
 use crate::scene::{Interface, JOINED, Scene};
 
+/// An interface and the side of it.
+type OnSide = (usize, usize);
+
 /// What interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
 #[derive(Default)]
 pub(super) struct Taken {
-    edges: HashMap<(usize, [usize; 3]), Vec<(usize, usize)>>,
+    edges: HashMap<(usize, [usize; 3]), Vec<OnSide>>,
     interfaces: usize,
 }
 
@@ -25,7 +28,9 @@ impl Taken {
     /// Takes the sides of one interface.
     pub(super) fn add(&mut self, sides: &[Vec<Curve>; 2]) {
         for (side, curves) in sides.iter().enumerate() {
-            for (curve, edge) in curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge))) {
+            for (curve, edge) in
+                curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
+            {
                 self.edges.entry((curve.body, edge.nodes)).or_default().push((self.interfaces, side));
             }
         }

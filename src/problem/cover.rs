@@ -43,13 +43,16 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec
     for plan in plans.iter().filter(|plan| plan.interface.between.is_none()) {
         for (curves, label) in plan.sides.iter().zip(["A", "B"]) {
             let (mut whole, mut joined) = (0.0, 0.0);
-            for (curve, edge) in curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge))) {
+            for (curve, edge) in
+                curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
+            {
                 let body = &model.bodies[curve.body];
                 let [p, q] = [0, 1].map(|i| body.mesh.points[edge.nodes[i]]);
                 let length = (q[0] - p[0]).hypot(q[1] - p[1]);
                 whole += length;
                 let of_edge = edges.get(&ordered([0, 1].map(|i| body.first_node + edge.nodes[i])));
-                joined += length * of_edge.into_iter().flatten().map(|taken| taken.to - taken.from).sum::<f64>();
+                joined +=
+                    length * of_edge.into_iter().flatten().map(|taken| taken.to - taken.from).sum::<f64>();
             }
             if joined < whole * (1.0 - WHOLE) {
                 let (name, share, length) = (&plan.name, 100.0 * joined / whole, joined);

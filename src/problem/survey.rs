@@ -57,7 +57,8 @@ impl Survey {
 fn largest_turn(coupling: &Coupling, side: usize, joined: &[usize]) -> f64 {
     let follows = |pair: &&[usize]| coupling.nodes(side, pair[0])[1] == coupling.nodes(side, pair[1])[0];
     let turns = joined.windows(2).filter(follows).map(|pair| {
-        let [t, u] = [(pair[0], true), (pair[1], false)].map(|(e, end)| tangent(&coupling.line(side, e), end));
+        let [t, u] =
+            [(pair[0], true), (pair[1], false)].map(|(e, end)| tangent(&coupling.line(side, e), end));
         (t[0] * u[1] - t[1] * u[0]).atan2(t[0] * u[0] + t[1] * u[1]).abs()
     });
     turns.fold(0.0, f64::max)
