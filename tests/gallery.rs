@@ -56,3 +56,11 @@ fn the_step_block_hands_down_its_whole_load() {
     close(&rows, "resultant_t", 0.0, 12.0);
     close(&rows, "reaction:lower.bottom:y", 12.0, 12.0);
 }
+
+/// 2 MPa on 1.2 m and then 3 MPa on 0.4 m: what the parts hand down to the support, kinks or not.
+#[test]
+fn the_shear_key_is_in_equilibrium() {
+    let rows = history("shear_key");
+    close(&rows, "reaction:lower.bottom:y", 2.4, 2.4);
+    close(&rows, "reaction:lower.bottom:x", -1.2, 2.4);
+}
