@@ -137,7 +137,7 @@ mod tests {
     fn a_good_scene_is_read() {
         let scene = parse("scene.json".into(), SCENE.into(), &["thickness=0.5".into()]).unwrap();
         assert_eq!(scene.thickness, 0.5);
-        assert_eq!(scene.interfaces["joint"].side_b.names(), ["upper.bottom"]);
+        assert_eq!(scene.interfaces["joint"].sides().unwrap()[1].names(), ["upper.bottom"]);
         assert_eq!(scene.steps[0].increments, 1);
     }
 
