@@ -29,8 +29,10 @@ fn pressed(
     supports: &str,
     loaded: &[&str],
 ) -> String {
-    let subdomains: Vec<String> =
-        blocks.iter().map(|(name, _)| format!(r#""{name}": {{ "msh": "x", "material": "rock" }}"#)).collect();
+    let subdomains: Vec<String> = blocks
+        .iter()
+        .map(|(name, _)| format!(r#""{name}": {{ "msh": "{name}", "material": "rock" }}"#))
+        .collect();
     let interfaces: Vec<String> = joints
         .iter()
         .map(|(name, a, b)| {
