@@ -178,3 +178,38 @@ fn units_change_nothing_but_the_numbers() {
         }
     }
 }
+
+#[test]
+fn increments_without_stored_fields_have_the_same_history() {
+    let steps = [
+        PRESS,
+        r#"{"name": "push", "increments": 24, "load": {"upper.left": {"traction": [0.9, 0]}}}"#,
+        r#"{"name": "hold", "increments": 24, "hold": {"upper.top": ["x"]}, "load": {"upper.left": {"traction": [0, 0]}}}"#,
+        r#"{"name": "release", "increments": 24, "release": {"upper.top": ["x"]}}"#,
+        r#"{"name": "shear", "increments": 24, "displace": {"upper.left": {"x": 4e-4}, "upper.right": {"x": 4e-4}}}"#,
+    ]
+    .join(",");
+    for law in [COULOMB, CRACKING] {
+        let run = |fields: &str| {
+            let text = scene(law, &steps, "")
+                .replace("\"output\": {", &format!("\"output\": {{\"fields\": \"{fields}\", "));
+            let problem = bind(&text, blocks()).unwrap();
+            (try_solve(&problem), problem)
+        };
+        let ((all, _), (last, problem)) = (run("every"), run("last"));
+        assert_eq!(all.states.len(), last.states.len());
+        assert!(last.states[30].snapshot.u.is_empty() && !all.states[30].snapshot.u.is_empty());
+        assert!(last.end.unwrap().energy_balance < 1e-8);
+        let largest = |f: &dyn Fn(&midplane::run::State) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
+        let (work, force) = (largest(&|s| s.work.abs()), 2.0 * 0.4);
+        for (i, (a, b)) in all.states.iter().zip(&last.states).enumerate() {
+            close(b.work, a.work, 1e-10, work, &format!("{law:.20}: work {i}"));
+            close(b.stored, a.stored, 1e-10, work, &format!("{law:.20}: stored {i}"));
+            close(b.dissipated, a.dissipated, 1e-10, work, &format!("{law:.20}: dissipated {i}"));
+            let columns = a.probes(&problem).into_iter().zip(b.probes(&problem));
+            columns.for_each(|(a, b)| close(b, a, 1e-9, force, &format!("{law:.20}: column, increment {i}")));
+        }
+        let (a, b) = (&all.states[96].snapshot.u, &last.states[96].snapshot.u);
+        a.iter().zip(b).for_each(|(a, b)| close(*b, *a, 1e-10, 4e-4, "u at the end"));
+    }
+}

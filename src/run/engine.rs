@@ -2,7 +2,7 @@
 
 use super::loading::Load;
 use super::state::{Found, State};
-use crate::solver::{Linear, Measure, NotPositiveDefinite, Plan, Ramp, System, Unconverged};
+use crate::solver::{Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution, System, Unconverged};
 
 /// Why an increment has no equilibrium.
 #[derive(Debug)]
@@ -24,6 +24,9 @@ pub(super) trait Engine {
     /// Equilibrium at a load level, sought from the last accepted one and from `ahead` times the last change beyond it.
     /// Displacements are recovered if they are asked for (`complete`) or needed.
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
+
+    /// Displacements and reactions of the last accepted increment, if the engine goes without.
+    fn recover(&self, load: &Load) -> Option<Solution>;
 
     /// What was found last is accepted: the next search starts from it.
     fn accept(&mut self);
@@ -65,6 +68,10 @@ impl Engine for LinearEngine<'_> {
         }
         let residuals = vec![solution.backward_error];
         Ok(Found { solution: Some(solution), ledger: None, joints: Vec::new(), iterations: 0, residuals })
+    }
+
+    fn recover(&self, _: &Load) -> Option<Solution> {
+        None
     }
 
     fn accept(&mut self) {}

@@ -55,6 +55,8 @@ pub struct Place<'a> {
     pub load_factor: f64,
     /// Newton iterations since the increment before.
     pub iterations: usize,
+    /// The state of the last increment again, complete: no equilibrium was found beyond.
+    pub ended: bool,
 }
 
 /// Called after the unloaded state (`number` 0) and after every increment, with the running counts.
@@ -157,7 +159,8 @@ fn steps(
         totals.factorisations +=
             usize::from(engine.support(&stage.held).map_err(|_| singular(stage, totals.increments))?);
         if step == 0 {
-            let place = Place { step, stage, number: 0, increment: 0, load_factor: 0.0, iterations: 0 };
+            let place =
+                Place { step, stage, number: 0, increment: 0, load_factor: 0.0, iterations: 0, ended: false };
             visit(place, &state, &totals, clock)?;
         }
         let start = Start::new(problem, stage, &initial, &state.snapshot.u, &state.reactions);
@@ -218,10 +221,25 @@ fn steps(
                 totals.residual = totals.residual.max(state.residual);
                 totals.energy_balance = totals.energy_balance.max(state.energy_balance().abs());
                 let increment = totals.increments;
-                let place = Place { step, stage, number, increment, load_factor: level, iterations };
+                let place =
+                    Place { step, stage, number, increment, load_factor: level, iterations, ended: false };
                 visit(place, &state, &totals, clock)?;
             }
             if let Some(why) = lost {
+                if totals.increments > 0 {
+                    state.complete(problem, engine, start.at(level)?);
+                    let increment = totals.increments;
+                    let place = Place {
+                        step,
+                        stage,
+                        number,
+                        increment,
+                        load_factor: level,
+                        iterations: 0,
+                        ended: true,
+                    };
+                    visit(place, &state, &totals, clock)?;
+                }
                 return Err(no_equilibrium(problem, stage, number, totals.increments, level, &why));
             }
         }

@@ -22,7 +22,7 @@ pub use state::State;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output::{Row, Writer};
 use crate::scene::Fields;
 
@@ -97,7 +97,7 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
     let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
     let listen = std::cell::RefCell::new(listen);
     let mut writer: Option<Writer> = None;
-    let mut balance = None;
+    let (mut balance, mut kept, mut stored) = (None, Totals::default(), 0);
     let mut visit = |place: Place, state: &State, totals: &Totals, clock: &mut Clock| -> Result<()> {
         (listen.borrow_mut())(Event::Stage("write"));
         clock.begin("write");
@@ -116,13 +116,21 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
         let Some(writer) = &mut writer else { return Ok(()) };
         let wanted = match fields {
             Fields::Every => true,
-            Fields::Step => place.number == place.stage.increments,
-            Fields::Last => place.increment == total,
+            Fields::Step => place.ended || place.number == place.stage.increments,
+            Fields::Last => place.ended || place.increment == total,
             Fields::None => false,
         };
-        if wanted {
+        if wanted && stored < place.increment {
             let time = place.step as f64 + place.load_factor;
             writer.fields(&problem.model, &state.snapshot, place.increment, time)?;
+            stored = place.increment;
+        }
+        if !state.force.is_empty() {
+            balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+        }
+        kept = totals.clone();
+        if place.ended {
+            return Ok(()); // its row is written
         }
         let row = Row {
             step: place.stage.name.clone(),
@@ -134,17 +142,23 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
             values: state.probes(&problem),
         };
         writer.row(&row)?;
-        if !state.force.is_empty() {
-            balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
-        }
         let of = place.stage.increments;
         (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total, totals });
         Ok(())
     };
-    let totals =
-        march(&problem, &mut clock, &mut |name| (listen.borrow_mut())(Event::Stage(name)), &mut visit)?;
+    let marched =
+        march(&problem, &mut clock, &mut |name| (listen.borrow_mut())(Event::Stage(name)), &mut visit);
+    let (totals, end) = match marched {
+        Ok(totals) => (totals, None),
+        Err(end @ Error::NoEquilibrium { .. }) => (kept, Some(end)),
+        Err(other) => return Err(other),
+    };
     if let (Some(writer), Some(balance)) = (&writer, balance) {
-        writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock))?;
+        let end = end.as_ref().map(Error::to_string);
+        writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock, end))?;
+    }
+    if let Some(end) = end {
+        return Err(end);
     }
     let collection = match scene.output.fields {
         Fields::None => path.clone(),

@@ -11,7 +11,7 @@ use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
     Base, Condensation, Continuum, Dual, Form, Measure, Newton, NotPositiveDefinite, Plain, Ramp, Respond,
-    Settings,
+    Settings, Solution,
 };
 
 /// Most corrections of what the displacements say against the condensed form.
@@ -30,8 +30,11 @@ pub(super) struct NewtonEngine<'a, F> {
     before: Vec<f64>,
     unknowns: Vec<f64>,
     found: Vec<f64>,
-    /// The step's loads are prepared; increments can do without displacements; none has been tried yet.
+    /// Forces of the joints at the last accepted increment, and at what was found last.
+    forces: [Vec<Vec<f64>>; 2],
+    /// The step's loads are prepared; so are its measures; these are good enough; no increment has been tried yet.
     prepared: bool,
+    measured: bool,
     trusted: bool,
     first: bool,
 }
@@ -39,7 +42,7 @@ pub(super) struct NewtonEngine<'a, F> {
 impl<'a, F> NewtonEngine<'a, F> {
     fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
         let (before, unknowns, found) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
-        let (prepared, trusted, first) = (false, false, true);
+        let (prepared, measured, trusted, first) = (false, false, false, true);
         NewtonEngine {
             problem,
             settings,
@@ -48,7 +51,9 @@ impl<'a, F> NewtonEngine<'a, F> {
             before,
             unknowns,
             found,
+            forces: [Vec::new(), Vec::new()],
             prepared,
+            measured,
             trusted,
             first,
         }
@@ -113,7 +118,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
         if let Some((_, form, _)) = &mut self.form {
             self.prepared = form.prepare(ramp, measures);
-            self.trusted = self.prepared && !measures.is_empty();
+            self.measured = self.prepared && !measures.is_empty();
+            self.trusted = self.measured;
             self.first = true;
         }
     }
@@ -153,11 +159,12 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         };
         self.trusted &= passes <= 1;
         self.first = false;
-        let ledger = match self.trusted {
+        let ledger = match self.measured {
             true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
             false => None,
         };
         self.found = iterate.x;
+        self.forces[1] = iterate.forces;
         let joints = form.active().iter().zip(iterate.jumps).zip(iterate.memory);
         let joints = joints.map(|((&joint, jumps), memory)| {
             let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
@@ -167,7 +174,13 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         Ok(Found { solution, ledger, joints, iterations, residuals })
     }
 
+    fn recover(&self, load: &Load) -> Option<Solution> {
+        let (_, form, _) = self.form.as_ref()?;
+        Some(form.recover(&self.unknowns, &self.forces[0], &load.loaded, &load.prescribed))
+    }
+
     fn accept(&mut self) {
+        self.forces.swap(0, 1);
         std::mem::swap(&mut self.before, &mut self.unknowns);
         std::mem::swap(&mut self.unknowns, &mut self.found);
     }

@@ -10,6 +10,7 @@
 //! increments. It is exact where displacements are prescribed, and the balance closes if, and only if, both ends of the
 //! increment are in equilibrium and nothing is forgotten.
 
+use super::engine::Engine;
 use super::loading::{Ledger, Load};
 use crate::assembly::Model;
 use crate::continuum::{Stresses, recover};
@@ -145,6 +146,18 @@ impl State {
         }
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
+    }
+
+    /// Recovers what an increment without stored fields has left out.
+    pub(super) fn complete(&mut self, problem: &Problem, engine: &dyn Engine, load: Load) {
+        if self.is_complete() {
+            return;
+        }
+        if let Some(Solution { u, mut reactions, .. }) = engine.recover(&load) {
+            reactions.iter_mut().zip(&load.released).for_each(|(reaction, released)| *reaction += released);
+            (self.snapshot.u, self.force, self.reactions) = (u, load.force, reactions);
+            self.recover(problem);
+        }
     }
 
     /// ½ (f₀ + f₁) · Δu of loads and reactions.

@@ -19,6 +19,8 @@ pub(super) struct Summary<'a> {
     title: &'a str,
     sizes: Sizes<'a>,
     solution: Solution,
+    /// Why the run ended before its last increment; null if it did not.
+    stopped: Option<String>,
     equilibrium: Balance,
     /// Seconds by stage.
     time: IndexMap<&'static str, f64>,
@@ -109,6 +111,7 @@ pub(super) fn summary<'a>(
     totals: &Totals,
     equilibrium: Balance,
     clock: &Clock,
+    stopped: Option<String>,
 ) -> Summary<'a> {
     let model = &problem.model;
     let subdomains = model.bodies.iter().map(|body| {
@@ -155,6 +158,7 @@ pub(super) fn summary<'a>(
             residual: totals.residual,
             energy_balance: totals.energy_balance,
         },
+        stopped,
         equilibrium,
         time,
         peak_memory_bytes: memory::peak(),

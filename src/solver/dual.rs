@@ -19,6 +19,8 @@ use crate::coupling::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Forces of the joints below this part of what springs in their place would carry are no measure of their own.
+const SLIGHT: f64 = 1e-3;
 /// Jumps this many times those of the base system have no hold.
 const RUN_AWAY: f64 = 100.0;
 
@@ -121,13 +123,15 @@ impl Form for Dual<'_> {
         residual
     }
 
-    /// What the springs would make of the misfit, over what the joints carry and what the springs alone would carry.
+    /// What the springs would make of the misfit, over what the joints carry. Where they carry nothing a small part of
+    /// what the springs alone would carry stands for it.
     fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let (mut misfit, mut scale) = (0.0, 0.0);
         for k in 0..self.active.len() {
             misfit += squares(&self.springs[k].multiply(self.part(k, residual)));
-            scale += squares(&forces[k]) + squares(&self.springs[k].multiply(self.part(k, target)));
+            let unlimited = squares(&self.springs[k].multiply(self.part(k, target)));
+            scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }

@@ -140,7 +140,7 @@ pub fn try_solve(problem: &Problem) -> March {
     let (mut iterations, mut load_factors, mut states) = (Vec::new(), Vec::new(), Vec::new());
     let mut clock = Clock::new("test");
     let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
-        if place.number > 0 {
+        if place.number > 0 && !place.ended {
             iterations.push(place.iterations);
             load_factors.push(place.load_factor);
             states.push(state.clone());
