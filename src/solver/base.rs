@@ -9,7 +9,7 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat};
 
-use super::dense::{cholesky, cholesky_solve, parallelism};
+use super::dense::{cholesky, cholesky_solve, cholesky_solve_many, parallelism};
 use super::linear::tractions;
 use super::refine::Factored;
 use super::{Condensation, Continuum, NotPositiveDefinite, Solution};
@@ -63,6 +63,35 @@ impl<'a> Base<'a> {
     /// Solves for external forces `f` and prescribed displacements (read where held).
     pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> Solution {
         self.refined(f, prescribed)
+    }
+
+    /// G K₀⁻¹ b on the jump coefficients of some joints for several right-hand sides, without refinement; what `b` has at
+    /// held dofs is ignored.
+    pub(super) fn on_joints(&self, active: &[usize], mut b: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let held = |dof: usize| self.held[dof];
+        b.iter_mut().for_each(|b| (0..b.len()).filter(|&dof| held(dof)).for_each(|dof| b[dof] = 0.0));
+        let mut x = self.continuum.on_border(&self.condensation, &b);
+        let zero: Vec<usize> = (0..self.held.len())
+            .filter(|&dof| held(dof))
+            .filter_map(|dof| self.continuum.places[dof].map(|place| place as usize))
+            .collect();
+        let clear =
+            |x: &mut Mat<f64>| (0..x.ncols()).for_each(|k| zero.iter().for_each(|&i| x[(i, k)] = 0.0));
+        clear(&mut x);
+        cholesky_solve_many(&self.border, x.as_mut());
+        clear(&mut x);
+        let at =
+            |dof: usize, k: usize| self.continuum.places[dof].map_or(0.0, |place| x[(place as usize, k)]);
+        let of = |k: usize| {
+            let rows =
+                active.iter().flat_map(|&joint| (0..self.joints[joint].size()).map(move |i| (joint, i)));
+            let sum = |(joint, i): (usize, usize)| {
+                let (dofs, values) = self.joints[joint].row(i);
+                dofs.iter().zip(values).map(|(&dof, value)| value * at(dof, k)).sum()
+            };
+            rows.map(sum).collect()
+        };
+        (0..b.len()).map(of).collect()
     }
 
     /// F₀ = G K₀⁻¹ Gᵀ on the jump coefficients of some joints, zero where nodes are held.

@@ -72,6 +72,11 @@ impl Continuum {
         Ok(Condensation { held: inside, values, schur })
     }
 
+    /// What the border needs of several right-hand sides.
+    pub(super) fn on_border(&self, condensation: &Condensation, b: &[Vec<f64>]) -> Mat<f64> {
+        self.parts.on_border(&condensation.values, b)
+    }
+
     /// Solves with a condensation in place; `border` solves on the joints' dofs.
     pub(super) fn solve(&self, condensation: &Condensation, b: &mut [f64], border: impl FnOnce(&mut [f64])) {
         self.parts.solve(&condensation.values, b, border);

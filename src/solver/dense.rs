@@ -34,8 +34,13 @@ pub(super) fn cholesky(s: &mut Mat<f64>, par: Par) -> Result<(), NotPositiveDefi
 
 /// Solves L Lᵀ x = b in place.
 pub(super) fn cholesky_solve(l: &Mat<f64>, b: &mut [f64]) {
-    let mut memory = MemBuffer::new(llt::solve::solve_in_place_scratch::<f64>(b.len(), 1, Par::Seq));
-    llt::solve::solve_in_place(l.as_ref(), column_mut(b), Par::Seq, MemStack::new(&mut memory));
+    cholesky_solve_many(l, column_mut(b));
+}
+
+/// Solves L Lᵀ X = B in place, one right-hand side a column.
+pub(super) fn cholesky_solve_many(l: &Mat<f64>, b: MatMut<f64>) {
+    let scratch = llt::solve::solve_in_place_scratch::<f64>(b.nrows(), b.ncols(), Par::Seq);
+    llt::solve::solve_in_place(l.as_ref(), b, Par::Seq, MemStack::new(&mut MemBuffer::new(scratch)));
 }
 
 /// P A = L U.

@@ -94,8 +94,7 @@ impl Form for Dual<'_> {
             self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&solution.u)).collect()
         };
         self.targets = [on_joints(&ends[0]), on_joints(&ends[1])];
-        let functional = |measure| Functional::new(&self.base, &self.active, ramp, &ends, measure);
-        self.functionals = measures.iter().map(functional).collect();
+        self.functionals = Functional::all(&self.base, &self.active, ramp, &ends, measures);
         true
     }
 

@@ -35,44 +35,41 @@ pub(super) struct Functional {
 }
 
 impl Functional {
-    /// Prepares a measure for base solutions at levels 0 and 1.
-    pub(super) fn new(
+    /// Prepares measures for base solutions at levels 0 and 1: one sweep through the factors for all of them.
+    pub(super) fn all(
         base: &Base,
         active: &[usize],
         ramp: &Ramp,
         ends: &[Solution; 2],
-        measure: &Measure,
-    ) -> Functional {
-        let held = base.held();
-        let mut c = vec![0.0; held.len()];
-        match measure {
-            Measure::Displacement(terms) => terms.iter().for_each(|&(dof, value)| c[dof] += value),
-            Measure::Reaction(terms) => {
-                terms.iter().filter(|(dof, _)| held[*dof]).for_each(|&(dof, value)| c[dof] += value);
-            }
-        }
+        measures: &[Measure],
+    ) -> Vec<Functional> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let on_joints =
-            |v: &[f64]| -> Vec<f64> { active.iter().flat_map(|&k| base.joints[k].coefficients(v)).collect() };
-        let nothing = vec![0.0; c.len()];
-        if c == nothing {
-            return Functional { ends: [0.0; 2], weights: on_joints(&nothing) };
-        }
-        let (mut ends_of, mut weights) = ([0.0; 2], Vec::new());
-        if let Measure::Reaction(_) = measure {
-            for (end, force) in ends_of.iter_mut().zip(&ramp.force) {
-                *end = -dot(&c, force);
+        let coefficients = |v: &[f64]| active.iter().flat_map(|&k| base.joints[k].coefficients(v)).collect();
+        let nothing = vec![0.0; base.held().len()];
+        let mut functionals = Vec::with_capacity(measures.len());
+        let mut columns = Vec::new();
+        for measure in measures {
+            let mut c = nothing.clone();
+            let mut functional = Functional { ends: [0.0; 2], weights: Vec::new() };
+            match measure {
+                Measure::Displacement(terms) => terms.iter().for_each(|&(dof, value)| c[dof] += value),
+                Measure::Reaction(terms) => {
+                    let held = terms.iter().filter(|(dof, _)| base.held()[*dof]);
+                    held.for_each(|&(dof, value)| c[dof] += value);
+                    functional.ends = [0, 1].map(|end| -dot(&c, &ramp.force[end]));
+                    functional.weights = coefficients(&c);
+                    c = base.residual(&nothing, &c).into_iter().map(|r| -r).collect();
+                }
             }
-            weights = on_joints(&c);
-            c = base.residual(&nothing, &c).into_iter().map(|r| -r).collect();
+            functional.ends.iter_mut().zip(ends).for_each(|(end, solution)| *end += dot(&c, &solution.u));
+            functionals.push(functional);
+            columns.push(c);
         }
-        for (end, solution) in ends_of.iter_mut().zip(ends) {
-            *end += dot(&c, &solution.u);
+        for (functional, moved) in functionals.iter_mut().zip(base.on_joints(active, columns)) {
+            functional.weights.resize(moved.len(), 0.0);
+            functional.weights.iter_mut().zip(moved).for_each(|(weight, moved)| *weight -= moved);
         }
-        let moved = on_joints(&base.solve(&c, &nothing).u);
-        weights.resize(moved.len(), 0.0);
-        weights.iter_mut().zip(moved).for_each(|(weight, moved)| *weight -= moved);
-        Functional { ends: ends_of, weights }
+        functionals
     }
 
     /// Its value at a level for what the joints carry beyond their springs.

@@ -8,7 +8,7 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Accum, Mat, MatRef, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::dense::column_mut;
 use super::graph::Graph;
@@ -148,15 +148,19 @@ impl Part {
         })
     }
 
-    /// L y = b through the part's own columns.
-    pub(super) fn forward(&self, values: &[f64], y: &mut [f64]) {
-        let mut sums = vec![0.0; y.len()];
+    /// L y = b through the part's own columns, for one right-hand side a column.
+    pub(super) fn forward(&self, values: &[f64], mut y: MatMut<f64>) {
+        let count = y.ncols();
+        let mut sums = vec![0.0; y.nrows() * count];
         for Own { start, triangle, rest, rows } in self.own(values) {
-            let x = &mut y[start..start + triangle.ncols()];
-            solve_lower_triangular_in_place(triangle, column_mut(x), Par::Seq);
-            let sums = &mut sums[..rows.len()];
-            matmul(column_mut(sums), Accum::Replace, rest, column(x), 1.0, Par::Seq);
-            rows.iter().zip(sums).for_each(|(&i, sum)| y[i] -= *sum);
+            let mut x = y.as_mut().subrows_mut(start, triangle.ncols());
+            solve_lower_triangular_in_place(triangle, x.as_mut(), Par::Seq);
+            let mut sums =
+                MatMut::from_column_major_slice_mut(&mut sums[..rows.len() * count], rows.len(), count);
+            matmul(sums.as_mut(), Accum::Replace, rest, x.as_ref(), 1.0, Par::Seq);
+            for k in 0..count {
+                rows.iter().enumerate().for_each(|(i, &row)| y[(row, k)] -= sums[(i, k)]);
+            }
         }
     }
 

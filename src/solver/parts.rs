@@ -19,7 +19,7 @@ use faer::{Mat, Par};
 use rayon::prelude::*;
 
 use super::cut::Cut;
-use super::dense::{cholesky, cholesky_solve};
+use super::dense::{cholesky, cholesky_solve, column_mut};
 use super::graph::NONE;
 use super::part::{Block, Part};
 use super::{NotPositiveDefinite, Symbolic, TooLarge};
@@ -146,6 +146,31 @@ impl Parts {
         Ok(PartsFactor { plan: self, values, border: s })
     }
 
+    /// b_C − Σ Bₚ Aₚ⁻¹ bₚ on the border for several right-hand sides, one a column: all that the border needs of them.
+    pub fn on_border(&self, values: &[Vec<f64>], b: &[Vec<f64>]) -> Mat<f64> {
+        let inner: Vec<Mat<f64>> = self
+            .parts
+            .par_iter()
+            .zip(values)
+            .map(|(part, values)| {
+                let at =
+                    |i: usize, k: usize| if i < part.inner { b[k][part.block.dofs[i] as usize] } else { 0.0 };
+                let mut y = Mat::from_fn(part.block.dofs.len(), b.len(), at);
+                part.forward(values, y.as_mut());
+                y
+            })
+            .collect();
+        let mut x = Mat::from_fn(self.border(), b.len(), |i, k| b[k][self.border.dofs[i] as usize]);
+        for (part, y) in self.parts.iter().zip(&inner) {
+            for k in 0..b.len() {
+                for (i, &place) in part.border.iter().enumerate() {
+                    x[(place as usize, k)] += y[(part.inner + i, k)];
+                }
+            }
+        }
+        x
+    }
+
     /// Solves A x = b in place with the parts' factors and whatever solves S x_C = b_C in place.
     pub fn solve(&self, values: &[Vec<f64>], b: &mut [f64], border_solve: impl FnOnce(&mut [f64])) {
         let Parts { parts, border } = self;
@@ -158,7 +183,7 @@ impl Parts {
                     .zip(&part.block.dofs)
                     .take(part.inner)
                     .for_each(|(y, &dof)| *y = b[dof as usize]);
-                part.forward(values, &mut y);
+                part.forward(values, column_mut(&mut y));
                 y
             })
             .collect();

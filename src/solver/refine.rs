@@ -1,7 +1,9 @@
 //! Refinement of a factored solution: the residual of the true matrix, solved again, until rounding is all that is left.
 
-/// Refinement ends at this backward error, or where it no longer halves.
+/// Refinement ends at this backward error, or where it no longer gains much: then rounding of the residual is left.
 const BACKWARD_ERROR: f64 = 4.0 * f64::EPSILON;
+/// What a refinement must leave at most of the error to be followed by another.
+const GAIN: f64 = 0.05;
 /// Most refinements.
 const REFINEMENTS: usize = 5;
 
@@ -49,7 +51,7 @@ pub(super) trait Factored {
             if error < previous {
                 best = Some((error, u.clone(), residual.clone()));
             }
-            if error <= BACKWARD_ERROR || error > 0.5 * previous {
+            if error <= BACKWARD_ERROR || error > GAIN * previous {
                 break;
             }
         }
