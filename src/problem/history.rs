@@ -12,7 +12,7 @@ use super::{along, groups};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::mesh::Group;
-use crate::scene::{Direction, Place, Scene, Step, Value, Variable};
+use crate::scene::{Control, Direction, Place, Scene, Step, Value, Variable};
 
 /// Two groups agree about a shared point if their displacements differ by less. Of the larger group's largest.
 const AGREE: f64 = 1e-12;
@@ -75,6 +75,7 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Re
         let stage = Stage {
             name: step.name.clone(),
             increments: step.increments,
+            control: step.control,
             held: supports.held.clone(),
             released,
             target: supports.target.clone(),
@@ -85,6 +86,11 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Re
             changing: changing.into_values().collect(),
         };
         stage.check(model)?;
+        if step.control != Control::Load && stage.follows_load_factor() {
+            let what = "the path of equilibria cannot be followed while a formula holds load_factor";
+            let cure = "ramp loads and displacements, or set \"control\": \"load\"";
+            return Err(scene.source.refuse(&["steps", &index, "control"], what, cure));
+        }
         stages.push(stage);
     }
     Ok((stages, reactions.into_values().collect()))

@@ -10,7 +10,7 @@ use super::load::BoundLoad;
 use super::quantity::Quantity;
 use crate::assembly::Model;
 use crate::error::Result;
-use crate::scene::Place;
+use crate::scene::{Control, Place};
 
 /// One step, bound.
 #[derive(Debug, Clone)]
@@ -19,6 +19,8 @@ pub struct Stage {
     pub name: String,
     /// Number of increments.
     pub increments: usize,
+    /// What is prescribed from increment to increment.
+    pub control: Control,
     /// Held dofs.
     pub held: Vec<bool>,
     /// Dofs that were held and are free now: their reaction goes to zero over the step.

@@ -13,6 +13,19 @@ pub(super) enum Failure {
     Unusable(f64),
 }
 
+/// A step on the path of equilibria.
+#[derive(Debug)]
+pub(super) struct Path<'a> {
+    /// The step's loads.
+    pub(super) ramp: &'a Ramp,
+    /// Energy to dissipate.
+    pub(super) amount: f64,
+    /// The last change of unknowns and load level is repeated this many times; zero: the path leaves a sound state.
+    pub(super) ahead: f64,
+    /// The last change of the load level.
+    pub(super) last: f64,
+}
+
 /// Finds equilibria under one set of supports after the other.
 pub(super) trait Engine {
     /// Makes ready for a set of supports. True if something was factored.
@@ -24,6 +37,10 @@ pub(super) trait Engine {
     /// Equilibrium at a load level, sought from the last accepted one and from `ahead` times the last change beyond it.
     /// Displacements are recovered if they are asked for (`complete`) or needed.
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
+
+    /// Equilibrium that dissipates `amount` more than the last accepted one at `level`, wherever its load level is; from
+    /// `ahead` times the last change, or off the tangent where that is none.
+    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure>;
 
     /// Displacements and reactions of the last accepted increment, if the engine goes without.
     fn recover(&self, load: &Load) -> Option<Solution>;
@@ -68,6 +85,10 @@ impl Engine for LinearEngine<'_> {
         }
         let residuals = vec![solution.backward_error];
         Ok(Found { solution: Some(solution), ledger: None, joints: Vec::new(), iterations: 0, residuals })
+    }
+
+    fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Found, f64), Failure> {
+        Err(Failure::Unusable(f64::INFINITY)) // nothing dissipates
     }
 
     fn recover(&self, _: &Load) -> Option<Solution> {

@@ -1,21 +1,17 @@
 //! The march through the load history. A linear scene takes one factorisation per set of supports and one solve per
 //! increment; any other iterates, and divides an increment that finds no equilibrium.
 
-use super::engine::{Engine, Failure, LinearEngine};
-use super::loading::Start;
+use super::course::Course;
+use super::engine::LinearEngine;
 use super::newton::{NewtonEngine, active};
 use super::state::State;
 use super::{Clock, memory};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::law::Law;
 use crate::problem::{Problem, Stage};
-use crate::scene::{Fields, Solution, Strategy, Tangent};
-use crate::solver::{Continuum, Plan, Settings, System, TooLarge, Unconverged};
+use crate::scene::{Solution, Strategy, Tangent};
+use crate::solver::{Continuum, Plan, Settings, System, TooLarge};
 
-/// An increment is halved at most this many times.
-const HALVINGS: i32 = 10;
-/// An increment found in at most this many iterations is followed by one of twice the size.
-const EASY: usize = 8;
 /// Condensation is for joints of at most this many dofs: its dense matrices have their square.
 const DENSE: usize = 12_000;
 
@@ -36,6 +32,8 @@ pub struct Totals {
     pub factor_entries: usize,
     /// Largest residual of all increments.
     pub residual: f64,
+    /// Where the load level turned on the path of equilibria: number of the increment, step, load level.
+    pub turns: Vec<(usize, String, f64)>,
     /// Largest |work − stored − dissipated|, relative.
     pub energy_balance: f64,
 }
@@ -55,6 +53,8 @@ pub struct Place<'a> {
     pub load_factor: f64,
     /// Newton iterations since the increment before.
     pub iterations: usize,
+    /// The last increment of its step.
+    pub last: bool,
     /// The state of the last increment again, complete: no equilibrium was found beyond.
     pub ended: bool,
 }
@@ -98,7 +98,7 @@ pub fn march_within(
             Plan::analyse(pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(dofs))?;
         memory::refuse(dofs, plan.entries(), memory::needed(plan.bytes(), pattern), available)?;
         (totals.strategy, totals.factor_entries) = (plan.strategy(), plan.entries());
-        steps(problem, &mut LinearEngine::new(&system, &plan), totals, clock, &mut begin, visit)
+        Course::new(problem, &mut LinearEngine::new(&system, &plan), totals, clock, &mut begin, visit).march()
     } else {
         let continuum = &Continuum::new(model).map_err(|TooLarge| memory::too_large(dofs))?;
         let (parts, settings) = (&continuum.parts, settings(&problem.solution));
@@ -114,11 +114,11 @@ pub fn march_within(
         if condensed {
             totals.strategy = "condensed";
             let mut engine = NewtonEngine::condensed(problem, continuum, &stiffness, settings);
-            steps(problem, &mut engine, totals, clock, &mut begin, visit)
+            Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
         } else {
             totals.strategy = "plain";
             let mut engine = NewtonEngine::plain(problem, continuum, &stiffness, settings);
-            steps(problem, &mut engine, totals, clock, &mut begin, visit)
+            Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
         }
     }
 }
@@ -141,160 +141,4 @@ fn springs(problem: &Problem, k: usize) -> Vec<f64> {
         _ => law.elastic_stiffness().map(|stiffness| stiffness.min(soft)),
     };
     [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
-}
-
-/// All steps with one engine.
-fn steps(
-    problem: &Problem,
-    engine: &mut dyn Engine,
-    mut totals: Totals,
-    clock: &mut Clock,
-    begin: &mut dyn FnMut(&mut Clock, &'static str),
-    visit: Visit,
-) -> Result<Totals> {
-    let (model, initial) = (&problem.model, initial_force(problem));
-    let mut state = State::unloaded(problem);
-    for (step, stage) in problem.stages.iter().enumerate() {
-        begin(clock, "factor");
-        totals.factorisations +=
-            usize::from(engine.support(&stage.held).map_err(|_| singular(stage, totals.increments))?);
-        if step == 0 {
-            let place =
-                Place { step, stage, number: 0, increment: 0, load_factor: 0.0, iterations: 0, ended: false };
-            visit(place, &state, &totals, clock)?;
-        }
-        let start = Start::new(problem, stage, &initial, &state.snapshot.u, &state.reactions);
-        let ramp = start.ramp()?;
-        // increments whose fields are not stored do without displacements where no joint needs them and it pays: a
-        // measure costs about as much as recovering one increment
-        let unstored = problem.fields != Fields::Every && active(problem).len() == model.joints.len();
-        let measures =
-            ramp.as_ref().filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
-        let thrifty = !measures.is_empty() && measures.len() < stage.increments;
-        let measures = if thrifty { measures } else { Vec::new() };
-        begin(clock, "prepare");
-        engine.prepare(ramp.as_ref(), &measures);
-        state.open(ramp.filter(|_| thrifty).map(|ramp| start.ledger(&ramp)));
-        let (mut level, mut width, mut last) = (0.0, 1.0 / stage.increments as f64, f64::INFINITY);
-        for number in 1..=stage.increments {
-            let goal = number as f64 / stage.increments as f64;
-            let mut iterations = 0;
-            let mut lost = None;
-            while level < goal {
-                begin(clock, "solve");
-                let reached = if level + 1.001 * width >= goal { goal } else { level + width };
-                let load = start.at(reached)?;
-                let complete = !thrifty || number == stage.increments;
-                match engine.solve(&state, &load, (reached - level) / last, complete) {
-                    Ok(found) => {
-                        engine.accept();
-                        iterations += found.iterations;
-                        if found.iterations <= EASY {
-                            width = (2.0 * width).min(1.0 / stage.increments as f64);
-                        }
-                        state.accept(problem, found, load);
-                        (last, level) = (reached - level, reached);
-                    }
-                    Err(Failure::Unusable(error)) => {
-                        return Err(unusable(stage, number, totals.increments, error));
-                    }
-                    Err(Failure::Unconverged(why)) => {
-                        iterations += why.iterations;
-                        totals.halved += 1;
-                        width = 0.5 * (reached - level);
-                        if width * (stage.increments as f64) < 0.5_f64.powi(HALVINGS) {
-                            lost = Some(why);
-                            break;
-                        }
-                    }
-                }
-            }
-            totals.iterations += iterations;
-            let between = level > (number - 1) as f64 / stage.increments as f64;
-            if lost.is_none() || between {
-                begin(clock, "recover");
-                state.recover(problem);
-                if !(state.stored.is_finite() && state.work.is_finite()) {
-                    return Err(unusable(stage, number, totals.increments, f64::INFINITY)); // every stress counts in these
-                }
-                totals.increments += 1;
-                totals.residual = totals.residual.max(state.residual);
-                totals.energy_balance = totals.energy_balance.max(state.energy_balance().abs());
-                let increment = totals.increments;
-                let place =
-                    Place { step, stage, number, increment, load_factor: level, iterations, ended: false };
-                visit(place, &state, &totals, clock)?;
-            }
-            if let Some(why) = lost {
-                if totals.increments > 0 {
-                    state.complete(problem, engine, start.at(level)?);
-                    let increment = totals.increments;
-                    let place = Place {
-                        step,
-                        stage,
-                        number,
-                        increment,
-                        load_factor: level,
-                        iterations: 0,
-                        ended: true,
-                    };
-                    visit(place, &state, &totals, clock)?;
-                }
-                return Err(no_equilibrium(problem, stage, number, totals.increments, level, &why));
-            }
-        }
-    }
-    clock.begin("end");
-    Ok(totals)
-}
-
-/// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic joints (paper eq. 12); other laws know theirs.
-fn initial_force(problem: &Problem) -> Vec<f64> {
-    let mut force = vec![0.0; problem.model.dofs()];
-    for ((joint, (_, initial)), states) in problem.model.joints.iter().zip(&problem.laws).zip(&problem.states)
-    {
-        if states.is_empty() {
-            let tractions: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
-            joint.add_force(&tractions, &mut force);
-        }
-    }
-    force
-}
-
-/// A solution that is none: rounding or overflow has eaten it.
-fn unusable(stage: &Stage, increment: usize, kept: usize, error: f64) -> Error {
-    let reason = if error.is_finite() {
-        format!("rounding leaves a backward error of {error:.1e}")
-    } else {
-        "numbers overflowed: loads or stiffnesses are out of range".into()
-    };
-    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
-}
-
-fn singular(stage: &Stage, kept: usize) -> Error {
-    let reason = "the stiffness is not positive definite in floating point".into();
-    Error::NoEquilibrium { step: stage.name.clone(), increment: 1, reason, kept }
-}
-
-/// The smallest increment has none: where it was lost, and the law points that are farthest from it.
-fn no_equilibrium(
-    problem: &Problem,
-    stage: &Stage,
-    increment: usize,
-    kept: usize,
-    level: f64,
-    why: &Unconverged,
-) -> Error {
-    let worst: Vec<String> = why
-        .worst
-        .iter()
-        .map(|&(joint, point)| {
-            let joint = &problem.model.joints[joint];
-            let point = &joint.coupling.points[point];
-            format!("{} at ({:.6}, {:.6})", joint.name, point.position[0], point.position[1])
-        })
-        .collect();
-    let reason =
-        format!("{} beyond load factor {level:.6}; worst law points: {}", why.reason, worst.join(", "));
-    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
 }

@@ -3,12 +3,15 @@
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
 mod clock;
+mod course;
 mod engine;
+mod failure;
 mod folder;
 mod loading;
 mod march;
 pub mod memory;
 mod newton;
+mod path;
 pub mod point;
 mod prepare;
 mod state;
@@ -116,8 +119,8 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
         let Some(writer) = &mut writer else { return Ok(()) };
         let wanted = match fields {
             Fields::Every => true,
-            Fields::Step => place.ended || place.number == place.stage.increments,
-            Fields::Last => place.ended || place.increment == total,
+            Fields::Step => place.ended || place.last,
+            Fields::Last => place.ended || place.last && place.step + 1 == problem.stages.len(),
             Fields::None => false,
         };
         if wanted && stored < place.increment {

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use nalgebra::Vector2;
 
-use super::engine::{Engine, Failure};
+use super::engine::{Engine, Failure, Path};
 use super::loading::{Ledger, Load};
-use super::state::{Found, JointAnswer, State};
+use super::state::{Answer, Found, JointAnswer, State};
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
-    Base, Condensation, Continuum, Dual, Form, Measure, Newton, NotPositiveDefinite, Plain, Ramp, Respond,
-    Settings, Solution,
+    Affine, Base, Condensation, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
+    Point, Ramp, Respond, Settings, Solution,
 };
 
 /// Most corrections of what the displacements say against the condensed form.
@@ -103,6 +103,25 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
     }
 }
 
+impl<F: Form> NewtonEngine<'_, F> {
+    /// Keeps a solution for its acceptance, and tells the march of it.
+    fn found(
+        &mut self,
+        solution: Option<Solution>,
+        ledger: Option<Ledger>,
+        residuals: Vec<f64>,
+        iterate: Iterate<Answer>,
+    ) -> Found {
+        (self.found, self.forces[1]) = (iterate.x, iterate.forces);
+        let active = self.form.iter().flat_map(|(_, form, _)| form.active());
+        let joints = active.zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
+            let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+            JointAnswer { joint, jumps, memory }
+        });
+        Found { solution, ledger, joints: joints.collect(), iterations: residuals.len() - 1, residuals }
+    }
+}
+
 impl<F: Form> Engine for NewtonEngine<'_, F> {
     fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
         if self.form.as_ref().is_some_and(|(of, ..)| of == held) {
@@ -163,15 +182,32 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
             false => None,
         };
-        self.found = iterate.x;
-        self.forces[1] = iterate.forces;
-        let joints = form.active().iter().zip(iterate.jumps).zip(iterate.memory);
-        let joints = joints.map(|((&joint, jumps), memory)| {
-            let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-            JointAnswer { joint, jumps, memory }
-        });
-        let (joints, iterations) = (joints.collect(), residuals.len() - 1);
-        Ok(Found { solution, ledger, joints, iterations, residuals })
+        Ok(self.found(solution, ledger, residuals, iterate))
+    }
+
+    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure> {
+        let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
+        let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
+        let load = Affine::new(ends[0].clone(), &ends[1]);
+        let start = if path.ahead > 0.0 {
+            let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
+            let x = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
+            Point { x, level: level + path.ahead * path.last }
+        } else {
+            let from = Point { x: self.unknowns.clone(), level };
+            let left = newton.leave(form, &laws, &from, &load, path.amount, self.settings);
+            left.map_err(Failure::Unconverged)?
+        };
+        let followed = newton.follow(form, &laws, start, &load, path.amount, self.settings);
+        let (iterate, level) = followed.map_err(Failure::Unconverged)?;
+        let at = |ends: &[Vec<f64>; 2]| -> Vec<f64> {
+            ends[0].iter().zip(&ends[1]).map(|(start, end)| start + level * (end - start)).collect()
+        };
+        let (loaded, prescribed) = (at(&path.ramp.force), at(&path.ramp.prescribed));
+        let solution = form.recover(&iterate.x, &iterate.forces, &loaded, &prescribed);
+        let found = self.found(Some(solution), None, iterate.residuals.clone(), iterate);
+        Ok((found, level))
     }
 
     fn recover(&self, load: &Load) -> Option<Solution> {
@@ -199,7 +235,7 @@ struct Laws<'a> {
 }
 
 impl Respond for Laws<'_> {
-    type Memory = (law::State, f64);
+    type Memory = Answer;
 
     fn respond(
         &self,
@@ -208,7 +244,7 @@ impl Respond for Laws<'_> {
         jump: &[f64],
         traction: &mut [f64],
         stiffness: &mut [f64],
-    ) -> Result<(law::State, f64), String> {
+    ) -> Result<Answer, String> {
         let (law, _) = &self.problem.laws[joint];
         let stepping = self.problem.stepping[joint];
         let answer = law
@@ -216,7 +252,12 @@ impl Respond for Laws<'_> {
             .map_err(|why| why.to_string())?;
         traction.copy_from_slice(answer.traction.as_slice());
         stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
-        Ok((answer.state, answer.dissipation))
+        let gradient = answer.dissipation_gradient.into();
+        Ok(Answer { state: answer.state, dissipation: answer.dissipation, gradient })
+    }
+
+    fn dissipation<'m>(&self, memory: &'m Answer) -> (f64, &'m [f64]) {
+        (memory.dissipation, &memory.gradient)
     }
 
     fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {

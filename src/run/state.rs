@@ -12,7 +12,7 @@
 
 use super::engine::Engine;
 use super::loading::{Ledger, Load};
-use crate::assembly::Model;
+use crate::assembly::{Joint, Model};
 use crate::continuum::{Stresses, recover};
 use crate::coupling::LawPoint;
 use crate::law::{self, Law};
@@ -53,8 +53,17 @@ pub(super) struct JointAnswer {
     pub(super) joint: usize,
     /// Jump (n, t) at the law points.
     pub(super) jumps: Vec<[f64; 2]>,
-    /// State and dissipation per area of the law points.
-    pub(super) memory: Vec<(law::State, f64)>,
+    /// What the laws answered at its law points.
+    pub(super) memory: Vec<Answer>,
+}
+
+/// What a law point remembers of an answer.
+#[derive(Debug, Clone)]
+pub(super) struct Answer {
+    pub(super) state: law::State,
+    /// Energy dissipated in the increment per area, and its derivative by the jump.
+    pub(super) dissipation: f64,
+    pub(super) gradient: [f64; 2],
 }
 
 /// An increment that converged.
@@ -74,7 +83,7 @@ impl State {
     /// Before the first increment.
     pub(super) fn unloaded(problem: &Problem) -> State {
         let u = vec![0.0; problem.model.dofs()];
-        let none = |joint: &crate::assembly::Joint| vec![[0.0; 2]; joint.coupling.points.len()];
+        let none = |joint: &Joint| vec![[0.0; 2]; joint.coupling.points.len()];
         let snapshot = Snapshot {
             u: u.clone(),
             jumps: problem.model.joints.iter().map(none).collect(),
@@ -110,6 +119,36 @@ impl State {
         !self.snapshot.u.is_empty()
     }
 
+    /// Energy that an increment dissipates [force × length].
+    pub(super) fn dissipation(problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+            points.map(|(point, memory)| point.weight * memory.dissipation).sum::<f64>()
+        };
+        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+    }
+
+    /// What the joints carry, as the mean square of their tractions times length [stress² × length].
+    pub(super) fn carried(&self, problem: &Problem) -> f64 {
+        let joints = problem.model.joints.iter().zip(&self.snapshot.states);
+        let of = |(joint, states): (&Joint, &Vec<law::State>)| {
+            let points = joint.coupling.points.iter().zip(states);
+            points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
+        };
+        joints.map(of).sum()
+    }
+
+    /// Change of the tractions that an increment brings, measured alike.
+    pub(super) fn change(&self, problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let points = problem.model.joints[answer.joint].coupling.points.iter();
+            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
+            let change = |old: &law::State, new: &law::State| (new.traction - old.traction).norm_squared();
+            points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
+        };
+        found.joints.iter().map(of).sum()
+    }
+
     /// Takes what converged under a load.
     pub(super) fn accept(&mut self, problem: &Problem, found: Found, load: Load) {
         let Found { solution, mut ledger, joints, residuals, .. } = found;
@@ -134,7 +173,7 @@ impl State {
             let (law, _) = &problem.laws[joint];
             let old = &mut self.snapshot.states[joint];
             let points = &problem.model.joints[joint].coupling.points;
-            for ((point, old), (new, dissipation)) in points.iter().zip(old).zip(memory) {
+            for ((point, old), Answer { state: new, dissipation, .. }) in points.iter().zip(old).zip(memory) {
                 let area = problem.model.thickness * point.weight;
                 let along = elastic_energy(law, &new) - elastic_energy(law, old) + dissipation;
                 let trapezium = 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump));

@@ -21,7 +21,7 @@ pub use expression::{Place, Variable};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
 pub use read::{parse, read};
 pub use schema::scene_schema;
-pub use solution::{Solution, Strategy, Tangent};
+pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
 pub use value::Value;
 
@@ -117,6 +117,9 @@ pub struct Step {
     /// Equal parts in which the step is applied.
     #[serde(default = "one_increment")]
     pub increments: usize,
+    /// What is prescribed from increment to increment.
+    #[serde(default)]
+    pub control: Control,
     /// Directions held at zero, by group.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub fix: IndexMap<String, Vec<Direction>>,

@@ -41,6 +41,18 @@ pub enum Tangent {
     Initial,
 }
 
+/// What is prescribed from increment to increment of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Control {
+    /// The load level: loads and displacements grow in equal parts.
+    #[default]
+    Load,
+    /// The load level while nothing dissipates, else the energy that the joints dissipate; loads and displacements fall
+    /// where the path of equilibria does. `increments` is the least number that the step is divided in.
+    Auto,
+}
+
 impl Default for Solution {
     fn default() -> Solution {
         let (strategy, tangent) = (Strategy::default(), Tangent::default());

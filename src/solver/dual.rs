@@ -192,6 +192,10 @@ impl Form for Dual<'_> {
         x.iter().zip(moved).map(|(a, moved)| a - moved).collect()
     }
 
+    fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64> {
+        of_coefficients.concat()
+    }
+
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
         let mut load = force.to_vec();
         let excess: Vec<f64> = self.excess(x, forces).iter().map(|q| -q).collect();

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::assembly::{Joint, Tangent};
 
-use super::{Measure, Ramp, Solution};
+use super::{Form, Respond};
 
 /// A law point is asked by itself; fewer than this many are not worth a thread.
 const CHUNK: usize = 32;
@@ -17,64 +17,11 @@ const HALVINGS: usize = 10;
 /// Part of the linear prediction by which a step must reduce the residual.
 const SUFFICIENT: f64 = 1e-4;
 /// An iteration that leaves more than this part of the residual has reached the rounding, if it is near.
-const STALLED: f64 = 0.5;
+pub(super) const STALLED: f64 = 0.5;
 /// What rounding leaves is not taken for a solution above this.
-const UNUSABLE: f64 = 1e-6;
+pub(super) const UNUSABLE: f64 = 1e-6;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
-
-/// What answers at the law points.
-pub trait Respond: Sync {
-    /// What a point remembers of an answer.
-    type Memory: Send;
-
-    /// Fills the traction (components) and its derivative by the jump (components², by rows) at a jump (n, t, …) of a law
-    /// point; on failure the reason.
-    fn respond(
-        &self,
-        joint: usize,
-        point: usize,
-        jump: &[f64],
-        traction: &mut [f64],
-        stiffness: &mut [f64],
-    ) -> Result<Self::Memory, String>;
-
-    /// Fills the derivative before anything has cracked or slipped.
-    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]);
-}
-
-/// One way to write the equilibrium.
-pub trait Form {
-    /// All joints.
-    fn joints(&self) -> &[Joint];
-    /// Numbers of the joints whose laws are asked.
-    fn active(&self) -> &[usize];
-    /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
-    fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
-    /// Prepares what loads that are affine in the load level allow; false if that is nothing. Then `prepared` has the
-    /// target at a level, and `measured` what was asked for, without recovering displacements.
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool;
-    /// b at a level of the prepared loads.
-    fn prepared(&self, level: f64) -> Vec<f64>;
-    /// The measures of a solution at a level of the prepared loads.
-    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64>;
-    /// Jump coefficients of every active joint.
-    fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
-    /// R(x) for the forces q of every active joint on its jump coefficients.
-    fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
-    /// Size of a residual, as a force, relative to the forces in the model.
-    fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
-    /// What rounding alone may leave of the residual, measured like `error`.
-    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64;
-    /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
-    fn factor(&mut self, tangents: &[Tangent]) -> bool;
-    /// J⁻¹ b in place.
-    fn solve(&self, b: &mut [f64]);
-    /// What the displacements of a solution say the residual still is; empty where it is known exactly.
-    fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64>;
-    /// Displacements and reactions of a solution.
-    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution;
-}
 
 /// When Newton ends, and with which tangent it goes.
 #[derive(Debug, Clone, Copy)]
@@ -118,20 +65,20 @@ pub struct Unconverged {
 }
 
 /// A point of the search and what the laws say there.
-struct Evaluation<M> {
-    jumps: Vec<Vec<f64>>,
-    tractions: Vec<Vec<f64>>,
-    stiffness: Vec<Vec<f64>>,
-    forces: Vec<Vec<f64>>,
-    memory: Vec<Vec<M>>,
-    residual: Vec<f64>,
-    error: f64,
+pub(super) struct Evaluation<M> {
+    pub(super) jumps: Vec<Vec<f64>>,
+    pub(super) tractions: Vec<Vec<f64>>,
+    pub(super) stiffness: Vec<Vec<f64>>,
+    pub(super) forces: Vec<Vec<f64>>,
+    pub(super) memory: Vec<Vec<M>>,
+    pub(super) residual: Vec<f64>,
+    pub(super) error: f64,
 }
 
 /// Newton's method on one form; the tangents' patterns are built once.
 #[derive(Debug)]
 pub struct Newton {
-    tangents: Vec<Tangent>,
+    pub(super) tangents: Vec<Tangent>,
 }
 
 impl Newton {
@@ -201,8 +148,26 @@ impl Newton {
         settings: Settings,
         iterations: usize,
     ) -> Result<Vec<f64>, Unconverged> {
-        let active = form.active().to_vec();
-        for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(&active).zip(&now.stiffness) {
+        self.fill(form, laws, now, settings);
+        let mut correction = now.residual.clone();
+        if form.factor(&self.tangents) {
+            form.solve(&mut correction);
+        }
+        if correction.iter().all(|value| value.is_finite()) {
+            return Ok(correction);
+        }
+        Err(unconverged(form, "the tangent is singular: nothing holds what slides or opens", now, iterations))
+    }
+
+    /// The tangents of an evaluation.
+    pub(super) fn fill<L: Respond>(
+        &mut self,
+        form: &impl Form,
+        laws: &L,
+        now: &Evaluation<L::Memory>,
+        settings: Settings,
+    ) {
+        for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
             let joint = &form.joints()[k];
             if settings.initial_tangent {
                 let mut stiffness = stiffness.clone();
@@ -213,14 +178,6 @@ impl Newton {
                 tangent.fill(joint, stiffness);
             }
         }
-        let mut correction = now.residual.clone();
-        if form.factor(&self.tangents) {
-            form.solve(&mut correction);
-        }
-        if correction.iter().all(|value| value.is_finite()) {
-            return Ok(correction);
-        }
-        Err(unconverged(form, "the tangent is singular: nothing holds what slides or opens", now, iterations))
     }
 }
 
@@ -255,7 +212,7 @@ fn search<L: Respond>(
     best
 }
 
-fn evaluate<L: Respond>(
+pub(super) fn evaluate<L: Respond>(
     form: &impl Form,
     laws: &L,
     x: &[f64],
@@ -293,7 +250,12 @@ fn evaluate<L: Respond>(
 }
 
 /// Names the law points with the largest misfit.
-fn unconverged<M>(form: &impl Form, reason: &str, now: &Evaluation<M>, iterations: usize) -> Unconverged {
+pub(super) fn unconverged<M>(
+    form: &impl Form,
+    reason: &str,
+    now: &Evaluation<M>,
+    iterations: usize,
+) -> Unconverged {
     let mut worst: Vec<(f64, usize, usize)> = Vec::new();
     for (&k, misfit) in form.active().iter().zip(form.coefficients(&now.residual)) {
         let joint = &form.joints()[k];

@@ -186,6 +186,12 @@ impl Form for Plain<'_> {
         Vec::new()
     }
 
+    fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64> {
+        let mut weights = vec![0.0; self.held.len()];
+        self.active.iter().zip(of_coefficients).for_each(|(&k, c)| self.joints[k].add_nodal(c, &mut weights));
+        weights
+    }
+
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
         let internal = self.internal(x, forces);
         let residual: Vec<f64> = internal.iter().zip(force).map(|(internal, f)| internal - f).collect();

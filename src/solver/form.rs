@@ -1,0 +1,62 @@
+//! What Newton's method asks of a form of the equilibrium, and what a form asks of the laws.
+
+use super::{Measure, Ramp, Solution};
+use crate::assembly::{Joint, Tangent};
+
+/// What answers at the law points.
+pub trait Respond: Sync {
+    /// What a point remembers of an answer.
+    type Memory: Send;
+
+    /// Fills the traction (components) and its derivative by the jump (components², by rows) at a jump (n, t, …) of a law
+    /// point; on failure the reason.
+    fn respond(
+        &self,
+        joint: usize,
+        point: usize,
+        jump: &[f64],
+        traction: &mut [f64],
+        stiffness: &mut [f64],
+    ) -> Result<Self::Memory, String>;
+
+    /// Energy dissipated per area since the last accepted increment, and its derivative by the jump.
+    fn dissipation<'m>(&self, memory: &'m Self::Memory) -> (f64, &'m [f64]);
+
+    /// Fills the derivative before anything has cracked or slipped.
+    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]);
+}
+
+/// One way to write the equilibrium.
+pub trait Form {
+    /// All joints.
+    fn joints(&self) -> &[Joint];
+    /// Numbers of the joints whose laws are asked.
+    fn active(&self) -> &[usize];
+    /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
+    fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
+    /// Prepares what loads that are affine in the load level allow; false if that is nothing. Then `prepared` has the
+    /// target at a level, and `measured` what was asked for, without recovering displacements.
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool;
+    /// b at a level of the prepared loads.
+    fn prepared(&self, level: f64) -> Vec<f64>;
+    /// The measures of a solution at a level of the prepared loads.
+    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64>;
+    /// Jump coefficients of every active joint.
+    fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
+    /// R(x) for the forces q of every active joint on its jump coefficients.
+    fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
+    /// Size of a residual, as a force, relative to the forces in the model.
+    fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
+    /// What rounding alone may leave of the residual, measured like `error`.
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64;
+    /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
+    fn factor(&mut self, tangents: &[Tangent]) -> bool;
+    /// J⁻¹ b in place.
+    fn solve(&self, b: &mut [f64]);
+    /// What the displacements of a solution say the residual still is; empty where it is known exactly.
+    fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64>;
+    /// Σ c · a over the active joints, for weights on their jump coefficients, as weights on x.
+    fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64>;
+    /// Displacements and reactions of a solution.
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution;
+}
