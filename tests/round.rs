@@ -1,5 +1,5 @@
 //! Claim: on a circular interface, unmatched, the displacement converges with h² (linear) or h³ (quadratic, curved edges)
-//! and the traction at least with h^1.5, from soft springs to K_N h/E = 1e8: two rings under pressure and torque (case 3)
+//! and the traction at least with h^1.5 to the finest mesh, from soft springs to K_N h/E = 1e8: two rings under pressure and torque (case 3)
 //! and an inclusion in a plate under tension (case 4).
 //!
 //! ```text
@@ -67,7 +67,8 @@ fn errors(problem: &Problem, state: &State, exact: &Round) -> [f64; 2] {
     [displacement, traction].map(|[error, norm]| (error / norm).sqrt())
 }
 
-/// Runs one case over elements, ratios and stiffnesses, three meshes each, and asserts the rates.
+/// Runs one case over elements, ratios and stiffnesses, a row of meshes each, and asserts the rates: of the displacement
+/// 2.0 ± 0.1 between the two finest (at least 2.9 if quadratic), of the traction 1.5 on average and there.
 fn converges(
     name: &'static str,
     heading: &str,
@@ -79,7 +80,7 @@ fn converges(
     let mut table = Table::new(
         name,
         heading,
-        "Relative L2 errors of displacement and traction on meshes each half as fine as the next; K_T = K_N/2; `projected`. Rates: of the displacement between the two finest meshes, of the traction over the first three.",
+        "Relative L2 errors of displacement and traction on meshes each half as fine as the next; K_T = K_N/2; `projected`. Rates: of the displacement between the two finest meshes; of the traction on average / between the two finest.",
         &["element", "A:B", "K_N h/E", "displacement", "rate", "traction", "rate"],
     );
     let mut failures = Vec::new();
@@ -95,7 +96,7 @@ fn converges(
                 let kn = number * 1e4 / 0.2;
                 let exact = exact(kn, 0.5 * kn);
                 let mut all = [Vec::new(), Vec::new()];
-                for level in 0..if quadratic { 3 } else { 4 } {
+                for level in 0..if quadratic { 3 } else { 5 } {
                     let n = if quadratic { fine } else { 8 } << level;
                     let rows = n / 4;
                     let mesh = |edges: usize, rows: usize, r: [f64; 2], from: f64| {
@@ -121,7 +122,8 @@ fn converges(
                         all.push(error);
                     }
                 }
-                let rates = [rate(&all[0][all[0].len() - 2..]), rate(&all[1][..3])];
+                let finest = all[0].len() - 2;
+                let rates = [rate(&all[0][finest..]), rate(&all[1]), rate(&all[1][finest..])];
                 table.row(&[
                     shape.label().into(),
                     format!("{a}:{b}"),
@@ -129,10 +131,10 @@ fn converges(
                     list(&all[0]),
                     format!("{:.2}", rates[0]),
                     list(&all[1]),
-                    format!("{:.2}", rates[1]),
+                    format!("{:.2} / {:.2}", rates[1], rates[2]),
                 ]);
-                let good = if quadratic { rates[0] >= 2.9 } else { rates[0] >= 1.9 };
-                if !good || rates[1] < 1.5 {
+                let good = if quadratic { rates[0] >= 2.9 } else { (rates[0] - 2.0).abs() <= 0.1 };
+                if !good || rates[1].min(rates[2]).is_nan() || rates[1].min(rates[2]) < 1.5 {
                     failures.push(format!("{shape:?} {a}:{b} {number:e}: {rates:?}"));
                 }
             }
@@ -171,7 +173,7 @@ fn case_4_inclusion_in_a_plate() {
 }
 
 /// Claim: the tractions between coarse, straight-sided rings stay as good at any stiffness: Q4, quarter model, pressure
-/// alone, so that t_t = 0 exactly. t_n reaches 3e-3, 1e-3, 4e-4; t_t, largest at the held ends, falls faster than h^1.5.
+/// alone, so that t_t = 0 exactly. t_n reaches 3e-3, 1e-3, 4e-4 and t_t 4e-3, 7e-4, 1.3e-4, both fall like h².
 #[test]
 fn stiff_rings_transmit_the_pressure() {
     let mut table = Table::new(
@@ -204,11 +206,13 @@ fn stiff_rings_transmit_the_pressure() {
         }
         let cells = errors.iter().map(|e| format!("{:.1e} / {:.1e}", e[0], e[1]));
         table.row(&std::iter::once(format!("{kn:.0e}")).chain(cells).collect::<Vec<_>>());
-        for (e, limit) in errors.iter().zip([3e-3, 1e-3, 4e-4]) {
-            assert!(e[0] < limit, "{kn:e}: {errors:?}");
+        for (e, limit) in errors.iter().zip([[3e-3, 4e-3], [1e-3, 7e-4], [4e-4, 1.3e-4]]) {
+            assert!(e[0] < limit[0] && e[1] < limit[1], "{kn:e}: {errors:?}");
         }
-        let shear: Vec<f64> = errors.iter().map(|e| e[1]).collect();
-        assert!(rate(&shear) > 1.5, "{kn:e}: {errors:?}");
+        for k in 0..2 {
+            let of: Vec<f64> = errors.iter().map(|e| e[k]).collect();
+            assert!(rate(&of) > 1.9, "{kn:e}: {errors:?}");
+        }
         if let Some(before) = &before {
             for (e, soft) in errors.iter().zip(before) {
                 assert!(

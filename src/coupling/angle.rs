@@ -25,10 +25,12 @@ const PLAIN: f64 = 0.3;
 const SPECK: f64 = 1e-6;
 
 /// Directions of a side.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Angles {
     /// Tangent angle of every edge at its start, end and middle [rad].
     pub of_edge: Vec<[f64; 3]>,
+    /// Angle from every edge's own direction to that of its nodes, at start and end [rad].
+    deviation: Vec<[f64; 2]>,
     /// How far every edge may lie off the curve that it approximates [length].
     pub slack: Vec<f64>,
     /// Lines without kinks.
@@ -50,7 +52,7 @@ impl Angles {
     /// Finds kinks and angles of a chain.
     pub(super) fn new(chain: &Chain) -> Angles {
         let own: Vec<[f64; 3]> = (0..chain.edges()).map(|e| own(chain, e)).collect();
-        let mut angles = Angles { of_edge: own.clone(), slack: Vec::new(), lines: Vec::new(), sharpest: 0.0 };
+        let mut angles = Angles { of_edge: own.clone(), ..Angles::default() };
         for run in &chain.runs {
             let edges: Vec<usize> = run.edges.clone().collect();
             let turns = turns(&own, &edges, run.closed);
@@ -79,7 +81,12 @@ impl Angles {
         for line in &angles.lines {
             smooth(chain, &own, line, &mut angles.of_edge);
         }
-        angles.slack = (0..chain.edges()).map(|e| slack(chain.chord(e), own[e], angles.of_edge[e])).collect();
+        for (e, own) in own.iter().enumerate() {
+            let of_nodes = angles.of_edge[e];
+            let deviation = [0, 1].map(|i| near(of_nodes[i], own[i]) - own[i]);
+            angles.slack.push(slack(chain.chord(e), deviation, of_nodes));
+            angles.deviation.push(deviation);
+        }
         angles
     }
 
@@ -91,6 +98,19 @@ impl Angles {
         mid + xi * (slope + xi * bend)
     }
 
+    /// From a straight edge at ξ to the curve that its nodes lie on: the cubic through both with their directions.
+    /// Nothing on a quadratic edge, which follows the curve itself.
+    pub(super) fn to_curve(&self, chain: &Chain, e: usize, xi: f64) -> [f64; 2] {
+        let [first, last] = self.deviation[e];
+        if chain.mids[e].is_some() || first == 0.0 && last == 0.0 {
+            return [0.0; 2];
+        }
+        let [dx, dy] = chain.derivative(e, xi); // half the chord
+        let (u, v) = (0.5 * (1.0 + xi), 0.5 * (1.0 - xi));
+        let height = 2.0 * u * v * (first * v - last * u);
+        [-height * dy, height * dx]
+    }
+
     /// Unit tangent of an edge at ξ.
     pub(super) fn tangent(&self, e: usize, xi: f64) -> [f64; 2] {
         let (sin, cos) = self.at(e, xi).sin_cos();
@@ -100,9 +120,8 @@ impl Angles {
 
 /// How far an edge may lie off its curve: twice the sagitta h δ/4, δ the angle between edge and curve at its ends, and
 /// what is left of an arc when a parabola follows it, h θ³/512, with a margin likewise.
-fn slack(h: f64, own: [f64; 3], nodes: [f64; 3]) -> f64 {
-    let deviation = |i: usize| (near(nodes[i], own[i]) - own[i]).abs();
-    h * (0.5 * deviation(0).max(deviation(1)) + (nodes[1] - nodes[0]).abs().powi(3) / 256.0)
+fn slack(h: f64, deviation: [f64; 2], nodes: [f64; 3]) -> f64 {
+    h * (0.5 * deviation[0].abs().max(deviation[1].abs()) + (nodes[1] - nodes[0]).abs().powi(3) / 256.0)
 }
 
 /// Angles of an edge's own derivative at its start, end and middle, continuous along it.

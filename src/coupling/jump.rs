@@ -1,11 +1,22 @@
 //! The jump of two sides at one place of C, as a row of the operator on nodal displacements.
 //!
 //! ```text
-//! jump = u_B − u_A − θ ẑ × (x_B − x_A),      θ = ½ (θ_A + θ_B),      θ_edge = x′ × u′ / |x′|²
+//!        c_B ●──── the curve, as B's nodes and their angles draw it
+//!        x_B ●──── an edge of B        v_B = u_B + ω_B (c_B − x_B)        likewise v_A
+//!
+//! jump = v_B − v_A − θ ẑ × (c_B − c_A),    ω v = θ ẑ × v + e v,    θ = ½ (θ_A + θ_B)
+//! θ_edge = x′ × u′ / |x′|²,    e_edge = x′ · u′ / |x′|²
 //! ```
 //!
-//! The last term takes out the rotation that the two edges carry where the faces do not coincide, so that a rigid motion
-//! of the whole model gives no jump. On coincident faces it vanishes.
+//! Two chords of one curve lie apart although nothing is between them. What an edge carries is therefore taken from its
+//! chord to the curve by its own rotation θ and stretch e: of a displacement u(x) along the curve, a complex function of
+//! a complex place, that is all of u″ which comes from the bend, u″ = (e + iθ) x″ + (e + iθ)′ x′; the rest is the
+//! element's own error as on a straight side. By the same token a traction acts on either edge at its lever from the
+//! curve, not from half-way between the chords: else the couples on neighbouring edges differ and shake the tractions
+//! by as much as h.
+//!
+//! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
+//! whole model gives no jump. On coincident straight faces there is nothing to add.
 
 use super::midplane::{Midplane, Segment, Spot};
 use super::{Chain, vector::*};
@@ -39,19 +50,24 @@ pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &Spot, mut add: imp
             }
         }
     }
+    let off = [0, 1].map(|i| c.angles[i].to_curve(sides[i].chain, sides[i].edge, sides[i].xi));
     let apart = minus(c.b.point(segment.edge_b, spot.xi_b), c.a.point(segment.edge_a, spot.xi_a));
-    if norm(apart) <= COINCIDENT * c.length {
+    let gap = plus(apart, minus(off[1], off[0]));
+    if [off[0], off[1], gap].iter().all(|v| norm(*v) <= COINCIDENT * c.length) {
         return;
     }
-    let lever = [apart[1], -apart[0]]; // −ẑ × (x_B − x_A)
-    for side in &sides {
+    for (i, sign) in [-1.0, 1.0].into_iter().enumerate() {
+        let side = &sides[i];
         let [dx, dy] = side.chain.derivative(side.edge, side.xi);
-        let half = 0.5 / (dx * dx + dy * dy);
+        let stretch = off[i].map(|x| sign * x);
+        let lever = [0, 1].map(|d| stretch[d] - 0.5 * gap[d]);
+        let turn = [-lever[1], lever[0]]; // ẑ × lever
         for (node, _, dn) in side.functions() {
+            let factor = dn / (dx * dx + dy * dy);
             for component in 0..2 {
-                let factor = dn * half * lever[component];
-                add(Entry { node, component, direction: 0, value: -factor * dy });
-                add(Entry { node, component, direction: 1, value: factor * dx });
+                let (t, e) = (factor * turn[component], factor * stretch[component]);
+                add(Entry { node, component, direction: 0, value: e * dx - t * dy });
+                add(Entry { node, component, direction: 1, value: e * dy + t * dx });
             }
         }
     }
