@@ -10,8 +10,8 @@
 //! derivative on a curved quadratic one. Between its nodes an edge interpolates the angles. At a kink every edge keeps an
 //! end angle of its own.
 
-use super::Chain;
 use super::chain::Corner;
+use super::{Chain, vector::*};
 
 /// A kink turns by more than this times what its neighbours turn by on average ...
 const SHARPER: f64 = 2.0;
@@ -29,6 +29,8 @@ const SPECK: f64 = 1e-6;
 pub(super) struct Angles {
     /// Tangent angle of every edge at its start, end and middle [rad].
     pub of_edge: Vec<[f64; 3]>,
+    /// Unit tangent of every edge there.
+    tangents: Vec<[[f64; 2]; 3]>,
     /// Angle from every edge's own direction to that of its nodes, at start and end [rad].
     deviation: Vec<[f64; 2]>,
     /// How far every edge may lie off the curve that it approximates [length].
@@ -86,16 +88,12 @@ impl Angles {
             let deviation = [0, 1].map(|i| near(of_nodes[i], own[i]) - own[i]);
             angles.slack.push(slack(chain.chord(e), deviation, of_nodes));
             angles.deviation.push(deviation);
+            let of = |angle: f64| [angle.cos(), angle.sin()];
+            let [start, end] = [of(of_nodes[0]), of(of_nodes[1])];
+            let mid = if chain.mids[e].is_some() { of(of_nodes[2]) } else { unit(plus(start, end)) };
+            angles.tangents.push([start, end, mid]);
         }
         angles
-    }
-
-    /// Tangent angle of an edge at ξ.
-    pub(super) fn at(&self, e: usize, xi: f64) -> f64 {
-        let [start, end, mid] = self.of_edge[e];
-        // the parabola through the three; exactly the common value where they agree
-        let (slope, bend) = (0.5 * (end - start), 0.5 * ((start - mid) + (end - mid)));
-        mid + xi * (slope + xi * bend)
     }
 
     /// From a straight edge at ξ to the curve that its nodes lie on: the cubic through both with their directions.
@@ -111,10 +109,16 @@ impl Angles {
         [-height * dy, height * dx]
     }
 
-    /// Unit tangent of an edge at ξ.
+    /// Unit tangent of an edge at ξ: along the parabola through the three, exactly the common value where they agree.
     pub(super) fn tangent(&self, e: usize, xi: f64) -> [f64; 2] {
-        let (sin, cos) = self.at(e, xi).sin_cos();
-        [cos, sin]
+        let [start, end, mid] = self.tangents[e];
+        if xi == 1.0 {
+            return end;
+        }
+        unit([0, 1].map(|d| {
+            let (slope, bend) = (0.5 * (end[d] - start[d]), 0.5 * ((start[d] - mid[d]) + (end[d] - mid[d])));
+            mid[d] + xi * (slope + xi * bend)
+        }))
     }
 }
 

@@ -4,7 +4,9 @@
 //!   ends   0 ──── 1 ─────── 2 ── 3        with mid-nodes on quadratic edges
 //! ```
 
-use crate::error::{Error, Result};
+use super::link::{self, Body, Link};
+use super::vector::*;
+use crate::error::Result;
 use crate::mesh::Edge;
 use crate::shape::{lagrange2, lagrange3};
 
@@ -60,60 +62,21 @@ pub(super) enum Corner {
     Unknown,
 }
 
-/// An edge on its way into a chain.
-struct Link {
-    start: usize,
-    end: usize,
-    mid: Option<usize>,
-    x: [[f64; 2]; 3],
-    corner: Corner,
-}
-
-/// Which way a chain runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Body {
-    /// As the mesh gives it: the body on the left of the chain.
-    Left,
-    /// The other way: the body on the right.
-    Right,
-}
-
 impl Chain {
     /// Orders the edges of a side, coordinates from `origin`.
     pub(super) fn order(interface: &str, curves: &[Side], body: Body, origin: [f64; 2]) -> Result<Chain> {
-        let names = names(curves);
-        let refuse =
-            |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
-        let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
-        for curve in curves {
-            for edge in curve.edges {
-                let [x, y] = curve.points[edge.nodes[0]];
-                if !edge.boundary {
-                    let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
-                    return Err(refuse(what, "a side lies on the boundary of its subdomain"));
-                }
-                links.push(Link::new(curve, edge, body, origin));
-            }
-        }
-        links.sort_unstable_by_key(|link| (link.start, link.end));
-        links.dedup_by_key(|link| (link.start, link.end)); // a curve that is listed twice
-        let mut ends: Vec<(usize, [f64; 2])> = links.iter().map(|link| (link.end, link.x[1])).collect();
-        ends.sort_unstable_by_key(|&(node, _)| node);
-        let branch = links.windows(2).find(|pair| pair[0].start == pair[1].start).map(|pair| pair[0].x[0]);
-        let merge = ends.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].1);
-        if let Some([x, y]) = branch.or(merge) {
-            let what = format!("{names} branches at ({}, {})", x + origin[0], y + origin[1]);
-            return Err(refuse(what, "no more than two edges of a side meet at a node"));
-        }
+        let links = link::sorted(interface, curves, body, origin)?;
         // open runs from their first edges, then what is left: closed ones
-        let follows = |link: &Link| ends.binary_search_by_key(&link.start, |&(node, _)| node).is_ok();
-        let firsts = (0..links.len()).filter(|&i| !follows(&links[i]));
+        let next: Vec<usize> = (0..links.len()).map(|i| link::next(&links, i)).collect();
+        let mut follows = vec![false; links.len()];
+        next.iter().filter(|&&next| next < links.len()).for_each(|&next| follows[next] = true);
+        let firsts = (0..links.len()).filter(|&i| !follows[i]);
         let mut used = vec![false; links.len()];
         let mut chain = Chain::empty();
         let mut mids = Vec::new();
         for i in firsts.chain(0..links.len()) {
             if !used[i] {
-                chain.walk(&links, &mut used, i, &mut mids);
+                chain.walk(&links, &next, &mut used, i, &mut mids);
             }
         }
         for mid in mids {
@@ -136,6 +99,7 @@ impl Chain {
     fn walk(
         &mut self,
         links: &[Link],
+        follower: &[usize],
         used: &mut [bool],
         first: usize,
         mids: &mut Vec<Option<(usize, [f64; 2])>>,
@@ -154,7 +118,7 @@ impl Chain {
             let link = &links[i];
             used[i] = true;
             mids.push(link.mid.map(|mid| (mid, link.x[2])));
-            next = links.binary_search_by_key(&link.end, |link| link.start).ok();
+            next = Some(follower[i]).filter(|&next| next < links.len());
             closed = next == Some(first);
             if closed {
                 self.ends.push([place, first_place]);
@@ -197,7 +161,7 @@ impl Chain {
     /// Distance of the ends of an edge [length].
     pub fn chord(&self, e: usize) -> f64 {
         let [p, q] = self.ends[e].map(|place| self.points[place]);
-        (q[0] - p[0]).hypot(q[1] - p[1])
+        norm(minus(q, p))
     }
 
     /// Shape functions of an edge and their derivatives at ξ: start, end, mid-node.
@@ -227,32 +191,6 @@ impl Chain {
             }
         }
         sum
-    }
-}
-
-impl Link {
-    fn new(curve: &Side, edge: &Edge, body: Body, origin: [f64; 2]) -> Link {
-        let [mut start, mut end, mid] = edge.nodes;
-        let mid = (mid != end).then_some(mid);
-        if body == Body::Right {
-            (start, end) = (end, start);
-        }
-        let corner = match curve.corners {
-            [] => Corner::Unknown,
-            corners if corners.binary_search(&start).is_ok() => Corner::Yes,
-            _ => Corner::No,
-        };
-        let x = [start, end, mid.unwrap_or(end)].map(|node| {
-            let p = curve.points[node];
-            [p[0] - origin[0], p[1] - origin[1]]
-        });
-        Link {
-            start: curve.first + start,
-            end: curve.first + end,
-            mid: mid.map(|m| curve.first + m),
-            x,
-            corner,
-        }
     }
 }
 

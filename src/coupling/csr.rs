@@ -37,6 +37,26 @@ impl Csr {
         csr
     }
 
+    /// The matrix without the entries that `keep`, asked with row and value, does not want.
+    pub fn retain(mut self, keep: impl Fn(usize, f64) -> bool) -> Csr {
+        let mut kept = 0;
+        for i in 0..self.rows() {
+            let range = self.offsets[i]..self.offsets[i + 1];
+            self.offsets[i] = kept;
+            for k in range {
+                if keep(i, self.values[k]) {
+                    (self.columns[kept], self.values[kept]) = (self.columns[k], self.values[k]);
+                    kept += 1;
+                }
+            }
+        }
+        let rows = self.rows();
+        self.offsets[rows] = kept;
+        self.columns.truncate(kept);
+        self.values.truncate(kept);
+        self
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.offsets.len() - 1

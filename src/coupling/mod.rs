@@ -22,6 +22,7 @@ mod chain;
 mod csr;
 mod grid;
 mod jump;
+mod link;
 mod midplane;
 mod pair;
 mod parts;

@@ -110,10 +110,12 @@ pub(super) fn walk(
     let (n_a, n_b) = (line_a.edges.len(), line_b.edges.len());
     let (mut at_a, mut at_b) = (from[0], from[1]);
     let (end_a, end_b) = (stop(line_a, from[0]), stop(line_b, from[1]));
-    let mut segments = Vec::new();
+    let mut segments = Vec::with_capacity(end_a + end_b - at_a.i - at_b.i);
+    let edges = |a: Place, b: Place| (line_a.edges[a.i % n_a], line_b.edges[b.i % n_b]);
+    let (first_a, first_b) = edges(at_a, at_b);
+    let (mut node_a, mut node_b) = (a.spot(first_a, 1.0), b.spot(first_b, 1.0));
     while at_a.i < end_a && at_b.i < end_b {
-        let (edge_a, edge_b) = (line_a.edges[at_a.i % n_a], line_b.edges[at_b.i % n_b]);
-        let (node_a, node_b) = (a.spot(edge_a, 1.0), b.spot(edge_b, 1.0));
+        let (edge_a, edge_b) = edges(at_a, at_b);
         let f = ahead(node_a, node_b);
         let (mut xi_a, mut xi_b) = (1.0, 1.0);
         if f > merge {
@@ -128,6 +130,13 @@ pub(super) fn walk(
         segments.push(segment);
         for (at, xi) in [(&mut at_a, xi_a), (&mut at_b, xi_b)] {
             *at = if xi == 1.0 { Place { i: at.i + 1, xi: -1.0 } } else { Place { xi, ..*at } };
+        }
+        let (next_a, next_b) = edges(at_a, at_b);
+        if xi_a == 1.0 {
+            node_a = a.spot(next_a, 1.0);
+        }
+        if xi_b == 1.0 {
+            node_b = b.spot(next_b, 1.0);
         }
     }
     segments

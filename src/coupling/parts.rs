@@ -5,7 +5,7 @@
 //! other; a part that comes apart on its way is refused with its gap.
 
 use super::angle::Angles;
-use super::chain::Body;
+use super::link::Body;
 use super::midplane::{Piece, Segment};
 use super::pair::{Face, Place, starts, walk};
 use super::vector::*;
@@ -47,9 +47,14 @@ pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Re
     let sides = [side_a, side_b];
     let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
     let origin = edge.unwrap_or_default();
-    let a = Chain::order(name, side_a, Body::Right, origin)?;
-    let b = Chain::order(name, side_b, Body::Left, origin)?;
-    let angles = [Angles::new(&a), Angles::new(&b)];
+    let order = |side: &[Side], body: Body| {
+        let chain = Chain::order(name, side, body, origin)?;
+        let angles = Angles::new(&chain);
+        Ok((chain, angles))
+    };
+    let (a, b) = rayon::join(|| order(side_a, Body::Right), || order(side_b, Body::Left));
+    let ((a, angles_a), (b, angles_b)): ((Chain, Angles), (Chain, Angles)) = (a?, b?);
+    let angles = [angles_a, angles_b];
     let kink = angles[0].sharpest.max(angles[1].sharpest);
     let mut c = Midplane {
         a,

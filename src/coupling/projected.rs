@@ -23,7 +23,7 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
 
     // B by rows (grid node, component), M in its band; a quadratic side needs three points also on a linear grid
     let any = midplane.a.mids.iter().chain(&midplane.b.mids).any(Option::is_some);
-    let mut b = Vec::new();
+    let (mut b, mut own) = (Vec::new(), Vec::new());
     let band = grid.band();
     let mut mass = vec![0.0; (band + 1) * grid.nodes];
     let mut cell = 0;
@@ -46,10 +46,16 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
             jump::entries(&midplane, segment, &spot, |entry| {
                 for (i, phi) in functions.into_iter().filter(|(_, phi)| *phi != 0.0) {
                     let row = components * grid.row[i] + entry.component;
-                    b.push((row, components * entry.node + entry.direction, w * phi * entry.value));
+                    own.push((row, components * entry.node + entry.direction, w * phi * entry.value));
                 }
             });
         }
+        // the points of a segment share their places
+        own.sort_by_key(|&(i, j, _)| (i, j));
+        for same in own.chunk_by(|p, q| (p.0, p.1) == (q.0, q.1)) {
+            b.push((same[0].0, same[0].1, same.iter().map(|entry| entry.2).sum()));
+        }
+        own.clear();
     }
     let b = Csr::from_triplets(components * grid.nodes, width, &b);
     let jump = solve(&Banded::factor(band, mass), &b, components, &grid);
@@ -171,7 +177,8 @@ fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Grid) -> Csr {
     grid.row.iter().enumerate().for_each(|(node, &row)| node_of[row] = node);
     let by_column = b.transposed();
     let mut column = vec![0.0; nodes];
-    let mut triplets = Vec::new();
+    let mut largest = vec![0.0_f64; b.rows()];
+    let mut found = Csr { offsets: vec![0], width: b.rows(), ..Csr::default() };
     for j in 0..by_column.rows() {
         let (rows, values) = by_column.row(j);
         for component in 0..components {
@@ -185,15 +192,14 @@ fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Grid) -> Csr {
                 continue;
             }
             for i in mass.solve(&mut column, first, last) {
-                triplets.push((components * node_of[i] + component, j, column[i]));
+                let row = components * node_of[i] + component;
+                largest[row] = largest[row].max(column[i].abs());
+                found.columns.push(row);
+                found.values.push(column[i]);
                 column[i] = 0.0;
             }
         }
+        found.offsets.push(found.columns.len());
     }
-    let mut largest = vec![0.0_f64; b.rows()];
-    for &(i, _, value) in &triplets {
-        largest[i] = largest[i].max(value.abs());
-    }
-    triplets.retain(|&(i, _, value)| value.abs() > NEGLIGIBLE * largest[i]);
-    Csr::from_triplets(b.rows(), b.width, &triplets)
+    found.transposed().retain(|i, value| value.abs() > NEGLIGIBLE * largest[i])
 }

@@ -28,41 +28,42 @@ fn start(c: &Midplane, range: std::ops::Range<usize>) -> usize {
     let segments = &c.segments[range.clone()];
     let n = segments.len();
     let length: f64 = segments.iter().map(|g| g.end - g.start).sum();
-    // the start of segment i: of which sides it is a node, its edges there, its place
+    // the start of segment i: its place; of which sides it is a node, its edges there
+    let place = |i: usize| c.spot(range.start + i, -1.0).position;
     let node = |i: usize| {
         let (before, after) = (&segments[(i + n - 1) % n], &segments[i]);
         let of = [after.xi_a[0] == -1.0, after.xi_b[0] == -1.0];
         let a = if of[0] { c.a.chord(before.edge_a) + c.a.chord(after.edge_a) } else { 0.0 };
         let b = if of[1] { c.b.chord(before.edge_b) + c.b.chord(after.edge_b) } else { 0.0 };
-        (of, a.max(b), c.spot(range.start + i, -1.0).position)
+        (of, a.max(b))
     };
     // smaller x, then y
-    let first = |x: [f64; 2], y: [f64; 2]| {
+    let first = |i: usize, j: usize| {
+        let (x, y) = (place(i), place(j));
         let left = x[0] - y[0];
         left < -SAME * length || left <= SAME * length && x[1] < y[1] - SAME * length
     };
-    let mut best: Option<(f64, [f64; 2], usize)> = None;
-    let (mut of, mut edges, mut x) = node(0);
+    let mut best: Option<(f64, usize)> = None;
+    let (mut of, mut edges) = node(0);
     for i in 0..n {
         let next = (i + 1) % n;
-        let (of_next, edges_next, x_next) = node(next);
+        let (of_next, edges_next) = node(next);
         let candidate = if of == [true; 2] {
-            Some((0.0, x, i))
+            Some((0.0, i))
         } else if of_next != [true; 2] && of != of_next {
             let (longer, distance) = (edges - edges_next, segments[i].end - segments[i].start);
-            let here = longer > SAME * length || longer >= -SAME * length && first(x, x_next);
-            let (x, i) = if here { (x, i) } else { (x_next, next) };
-            Some((distance, x, i))
+            let here = longer > SAME * length || longer >= -SAME * length && first(i, next);
+            Some((distance, if here { i } else { next }))
         } else {
             None
         };
-        let better = |(d, x, _): &(f64, [f64; 2], usize)| {
-            best.is_none_or(|(least, y, _)| {
-                *d < least - SAME * length || *d <= least + SAME * length && first(*x, y)
+        let better = |(d, i): &(f64, usize)| {
+            best.is_none_or(|(least, j)| {
+                *d < least - SAME * length || *d <= least + SAME * length && first(*i, j)
             })
         };
         best = candidate.filter(better).or(best);
-        (of, edges, x) = (of_next, edges_next, x_next);
+        (of, edges) = (of_next, edges_next);
     }
-    best.map_or(0, |(_, _, first)| first)
+    best.map_or(0, |(_, first)| first)
 }

@@ -13,7 +13,7 @@ pub(super) fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
 }
 
 pub(super) fn norm(p: [f64; 2]) -> f64 {
-    p[0].hypot(p[1])
+    dot(p, p).sqrt() // as exact as hypot but for sizes beyond 1e±154
 }
 
 pub(super) fn unit(v: [f64; 2]) -> [f64; 2] {

@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use rayon::prelude::*;
-use rstar::{AABB, RTree, RTreeObject};
+use rstar::{AABB, Envelope, RTree, RTreeObject};
 
 use super::{Edge, Mesh};
 use crate::error::Result;
@@ -78,8 +78,9 @@ pub fn touching(
 ) -> Result<Vec<Touch>> {
     let lines: Vec<Result<Vec<Line>>> =
         meshes.par_iter().enumerate().map(|(b, mesh)| lines(b, mesh)).collect();
-    let lines: Vec<Line> = lines.into_iter().collect::<Result<Vec<_>>>()?.concat();
-    let tree = RTree::bulk_load(lines.iter().enumerate().map(|(i, line)| Numbered(i, *line)).collect());
+    let lines = within_reach(lines.into_iter().collect::<Result<Vec<_>>>()?);
+    let numbered = lines.iter().enumerate().map(|(i, line)| Numbered(i, line.surroundings()));
+    let tree = RTree::bulk_load(numbered.collect());
     let shared: Vec<Shared> = (0..lines.len())
         .into_par_iter()
         .flat_map_iter(|a| {
@@ -102,14 +103,29 @@ pub fn touching(
 }
 
 /// A line with its number, as the tree keeps it.
-struct Numbered(usize, Line);
+struct Numbered(usize, AABB<[f64; 2]>);
 
 impl RTreeObject for Numbered {
     type Envelope = AABB<[f64; 2]>;
 
     fn envelope(&self) -> AABB<[f64; 2]> {
-        self.1.surroundings()
+        self.1
     }
+}
+
+/// The lines of all bodies that reach into the box around another body.
+fn within_reach(bodies: Vec<Vec<Line>>) -> Vec<Line> {
+    let around = |lines: &Vec<Line>| {
+        let boxes = lines.iter().map(Line::surroundings);
+        boxes.fold(AABB::new_empty(), |all: AABB<[f64; 2]>, one| all.merged(&one))
+    };
+    let boxes: Vec<AABB<[f64; 2]>> = bodies.iter().map(around).collect();
+    let mut near = bodies.concat();
+    near.retain(|line| {
+        let own = line.surroundings();
+        (0..boxes.len()).any(|body| body != line.body && boxes[body].intersects(&own))
+    });
+    near
 }
 
 /// The boundary of a body, with the reach of every edge.

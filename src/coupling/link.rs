@@ -1,0 +1,96 @@
+//! The edges of a side on their way into a chain: in the order of their start nodes, so that what follows what is found
+//! by search.
+
+use super::chain::{Corner, Side, names};
+use crate::error::{Error, Result};
+use crate::mesh::Edge;
+
+/// An edge on its way into a chain.
+pub(super) struct Link {
+    /// Node of the model.
+    pub start: usize,
+    /// Node of the model.
+    pub end: usize,
+    /// Mid-node, if it has one.
+    pub mid: Option<usize>,
+    /// Start, end and mid-node from the origin.
+    pub x: [[f64; 2]; 3],
+    /// What is known of the start.
+    pub corner: Corner,
+}
+
+/// Which way a chain runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Body {
+    /// As the mesh gives it: the body on the left of the chain.
+    Left,
+    /// The other way: the body on the right.
+    Right,
+}
+
+/// The edges of a side by start node; no two start or end at one.
+pub(super) fn sorted(interface: &str, curves: &[Side], body: Body, origin: [f64; 2]) -> Result<Vec<Link>> {
+    let names = names(curves);
+    let refuse =
+        |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
+    let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
+    for curve in curves {
+        for edge in curve.edges {
+            let [x, y] = curve.points[edge.nodes[0]];
+            if !edge.boundary {
+                let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
+                return Err(refuse(what, "a side lies on the boundary of its subdomain"));
+            }
+            links.push(Link::new(curve, edge, body, origin));
+        }
+    }
+    links.sort_unstable_by_key(|link| (link.start, link.end));
+    links.dedup_by_key(|link| (link.start, link.end)); // a curve that is listed twice
+    let mut ends: Vec<(usize, [f64; 2])> = links.iter().map(|link| (link.end, link.x[1])).collect();
+    ends.sort_unstable_by_key(|&(node, _)| node);
+    let branch = links.windows(2).find(|pair| pair[0].start == pair[1].start).map(|pair| pair[0].x[0]);
+    let merge = ends.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].1);
+    if let Some([x, y]) = branch.or(merge) {
+        let what = format!("{names} branches at ({}, {})", x + origin[0], y + origin[1]);
+        return Err(refuse(what, "no more than two edges of a side meet at a node"));
+    }
+    Ok(links)
+}
+
+/// The link that starts where link `i` ends, or their number if none does.
+pub(super) fn next(links: &[Link], i: usize) -> usize {
+    let end = links[i].end;
+    let starts = |j: usize| links.get(j).is_some_and(|link| link.start == end);
+    // nodes of a curve are mostly numbered in a row
+    match i {
+        _ if starts(i + 1) => i + 1,
+        1.. if starts(i - 1) => i - 1,
+        _ => links.binary_search_by_key(&end, |link| link.start).unwrap_or(links.len()),
+    }
+}
+
+impl Link {
+    fn new(curve: &Side, edge: &Edge, body: Body, origin: [f64; 2]) -> Link {
+        let [mut start, mut end, mid] = edge.nodes;
+        let mid = (mid != end).then_some(mid);
+        if body == Body::Right {
+            (start, end) = (end, start);
+        }
+        let corner = match curve.corners {
+            [] => Corner::Unknown,
+            corners if corners.binary_search(&start).is_ok() => Corner::Yes,
+            _ => Corner::No,
+        };
+        let x = [start, end, mid.unwrap_or(end)].map(|node| {
+            let p = curve.points[node];
+            [p[0] - origin[0], p[1] - origin[1]]
+        });
+        Link {
+            start: curve.first + start,
+            end: curve.first + end,
+            mid: mid.map(|m| curve.first + m),
+            x,
+            corner,
+        }
+    }
+}
