@@ -97,6 +97,7 @@ test: | tools     ## all tests, in release, so that dependencies compile once
 bench:            ## the linear path by stage at 100 000 dofs (all sizes: cargo bench --bench large); ns of the laws
 	cargo bench --locked --bench large -- 100000
 	cargo bench --locked --bench law
+	cargo bench --locked --bench pairing
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify

@@ -339,69 +339,6 @@ fn b26_t_junction_of_one_side_against_two_blocks() {
     }
 }
 
-/// A slit: two curves of one body, its tips shared by both sides.
-#[test]
-fn b28_a_slit_inside_one_body_is_joined_to_itself() {
-    // a block below and one above, welded where x < 0.3 and x > 0.7: here by sharing nodes
-    let (below, above) = (
-        rectangle(&even(0.0, 1.0, 40), &even(-0.5, 0.0, 20), Shape::Quadrilateral4, |x, y| [x, y]),
-        rectangle(&even(0.0, 1.0, 40), &even(0.0, 0.5, 20), Shape::Quadrilateral4, |x, y| [x, y]),
-    );
-    let mesh = welded(below, above, |x| !(0.3 + 1e-9..0.7 - 1e-9).contains(&x));
-    let blocks = [("a", mesh)];
-    let joints = [("joint", r#""a.lips below""#, r#""a.lips above""#)];
-    let text = pressed(&blocks, &joints, r#""a.bottom": ["y"], "a.left": ["x"]"#, &["a.top"]);
-    let problem = bind(&text, blocks.into_iter().map(|(_, mesh)| mesh).collect()).unwrap();
-    assert!((sum_of_segments(&problem, 0) - 0.4).abs() < 1e-15);
-    let state = solve(&problem).0.remove(0);
-    // it closes under the pressure, near to −p away from the tips, where both faces are welded
-    let points = &problem.model.joints[0].coupling.points;
-    let middle =
-        points.iter().zip(&state.snapshot.tractions[0]).filter(|(p, _)| (p.position[0] - 0.5).abs() < 0.1);
-    for (_, t) in middle {
-        assert!((t[0] + P).abs() < 0.05 * P && t[1].abs() < 1e-3 * P, "{t:?}");
-    }
-}
-
-/// Two meshes in one, the nodes of top and bottom shared where `weld` says so; the rest are the lips.
-fn welded(below: Mesh, above: Mesh, weld: impl Fn(f64) -> bool) -> Mesh {
-    use midplane::mesh::{Edge, Group};
-    let mut mesh = below.clone();
-    let at = |mesh: &Mesh, name: &str| mesh.groups[name].points(mesh);
-    let mut number = vec![usize::MAX; above.points.len()];
-    for i in at(&above, "bottom") {
-        let x = above.points[i][0];
-        if weld(x) {
-            let twin = at(&below, "top").into_iter().find(|&j| (below.points[j][0] - x).abs() < 1e-9);
-            number[i] = twin.unwrap();
-        }
-    }
-    for (i, number) in number.iter_mut().enumerate().filter(|(_, number)| **number == usize::MAX) {
-        *number = mesh.points.len();
-        mesh.points.push(above.points[i]);
-    }
-    let first = mesh.cells.len();
-    for c in 0..above.cells.len() {
-        let nodes: Vec<usize> = above.cells.nodes(c).iter().map(|&node| number[node]).collect();
-        mesh.cells.push(above.cells.shapes[c], &nodes);
-    }
-    let lips = |mesh: &Mesh, name: &str, number: &dyn Fn(usize) -> usize, first: usize| -> Vec<Edge> {
-        let Group::Edges(edges) = &mesh.groups[name] else { unreachable!() };
-        let free = |edge: &&Edge| !edge.nodes[..2].iter().all(|&node| weld(mesh.points[node][0]));
-        let moved =
-            |edge: &Edge| Edge { nodes: edge.nodes.map(number), cell: first + edge.cell, boundary: true };
-        edges.iter().filter(free).map(moved).collect()
-    };
-    let (one, two) = (lips(&below, "top", &|i| i, 0), lips(&above, "bottom", &|i| number[i], first));
-    let Group::Edges(top) = &above.groups["top"] else { unreachable!() };
-    let top =
-        top.iter().map(|e| Edge { nodes: e.nodes.map(|i| number[i]), cell: first + e.cell, ..*e }).collect();
-    mesh.groups.insert("top".into(), Group::Edges(top));
-    mesh.groups.insert("lips below".into(), Group::Edges(one));
-    mesh.groups.insert("lips above".into(), Group::Edges(two));
-    mesh
-}
-
 #[test]
 fn b29_direction_and_order_of_the_curves_do_not_matter() {
     // the mesh room turns clockwise cells and curves; what is left is numbering: backwards on either side

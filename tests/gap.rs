@@ -1,0 +1,61 @@
+//! Claim: faces with an initial gap carry nothing until they meet, then the pressure of springs in series; what they
+//! slid while apart is no slip of the joint.
+//!
+//! ```text
+//!     ┌───────┐ ↓ d, → 1e-4      t_n = 0                               d ≤ g
+//!     │   b   │                  t_n = −(d − g) / (1/K_N + H/E)        d > g,  H = 1 the height of both blocks
+//!     └───────┘  g = 1e-3        t_t = 0
+//!     ┌───────┐
+//!     └───a───┘
+//! ```
+
+mod common;
+
+use common::*;
+use midplane::shape::Shape;
+
+const E: f64 = 1e4;
+const KN: f64 = 1e6;
+const G: f64 = 1e-3;
+
+/// Lower block below y = 0, upper one from `y` on.
+fn check(gap: &str, y: f64) {
+    let text = format!(
+        r#"{{ "plane": "strain",
+          "subdomains": {{ "a": {{ "msh": "a", "material": "rock" }}, "b": {{ "msh": "b", "material": "rock" }} }},
+          "materials": {{ "rock": {{ "young": {E}, "poisson": 0 }} }},
+          "interfaces": {{ "joint": {{ "side_a": "a.top", "side_b": "b.bottom", "initial_gap": {gap},
+            "law": {{ "type": "coulomb", "normal_stiffness": {KN}, "tangential_stiffness": {KN}, "friction_coefficient": 0.5 }} }} }},
+          "steps": [
+            {{ "name": "near", "increments": 4, "fix": {{ "a.bottom": ["x", "y"] }},
+              "displace": {{ "b.top": {{ "x": 1e-4, "y": -8e-4 }} }} }},
+            {{ "name": "close", "increments": 4, "displace": {{ "b.top": {{ "x": 1e-4, "y": -2e-3 }} }} }} ] }}"#
+    );
+    let block = |n: usize, y: f64| {
+        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    let problem = bind(&text, vec![block(4, -0.5), block(6, y)]).unwrap();
+    let (states, _) = solve(&problem);
+    assert_eq!(states.len(), 8);
+    let mut closed = 0;
+    for (i, state) in states.iter().enumerate() {
+        let d = if i < 4 { 8e-4 * (i + 1) as f64 / 4.0 } else { 8e-4 + 1.2e-3 * (i - 3) as f64 / 4.0 };
+        let exact = -(d - G).max(0.0) / (1.0 / KN + 1.0 / E);
+        closed += usize::from(exact < 0.0);
+        for t in &state.snapshot.tractions[0] {
+            close(t[0], exact, 1e-9, 10.0, &format!("t_n at d = {d}"));
+            close(t[1], 0.0, 1e-9, 10.0, &format!("t_t at d = {d}"));
+        }
+    }
+    assert_eq!(closed, 4);
+}
+
+#[test]
+fn a_gap_that_the_scene_gives() {
+    check("1e-3", 0.0);
+}
+
+#[test]
+fn a_gap_that_is_drawn() {
+    check("\"geometry\"", G);
+}

@@ -1,0 +1,54 @@
+//! Claim: `between` finds the closed curve along which two parts of one mesh touch, and joins it: held as a plate in a
+//! linear displacement field, inclusion and plate follow it as if they were one, up to what the stiff joint gives.
+
+mod common;
+#[path = "common/round.rs"]
+mod round;
+
+use std::f64::consts::PI;
+
+use common::*;
+use midplane::shape::Shape;
+use round::ring;
+
+#[test]
+fn two_surfaces_of_one_mesh_are_joined_along_a_circle() {
+    let n = 24;
+    for shape in [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8] {
+        let whole = ring(n, &even(0.5, 2.0, 6), shape, 0.2);
+        let inside = |c: &usize| {
+            let nodes = whole.cells.nodes(*c);
+            let r = |i: &usize| whole.points[*i][0].hypot(whole.points[*i][1]);
+            nodes.iter().map(r).sum::<f64>() / (nodes.len() as f64) < 1.0
+        };
+        let (one, two): (Vec<usize>, Vec<usize>) = (0..whole.cells.len()).partition(inside);
+        let (k, e) = (1e10, 1e4);
+        // a linear grid would let mid-nodes part
+        let linear = r#"{ "x": "2e-3*x + 1e-3*y", "y": "3e-4*x - 1e-3*y" }"#;
+        let text = format!(
+            r#"{{ "plane": "strain",
+              "subdomains": {{ "core": {{ "msh": "a", "material": "rock" }}, "plate": {{ "msh": "b", "material": "rock" }} }},
+              "materials": {{ "rock": {{ "young": {e}, "poisson": 0.2 }} }},
+              "interfaces": {{ "rim": {{ "between": ["core", "plate"], "grid": "quadratic",
+                "law": {{ "type": "elastic", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e} }} }} }},
+              "steps": [ {{ "name": "stretch", "displace": {{ "core.bottom": {linear}, "plate.top": {linear} }} }} ] }}"#
+        );
+        let problem = bind(&text, vec![whole.part(&one).unwrap(), whole.part(&two).unwrap()]).unwrap();
+        let joint = &problem.model.joints[0];
+        assert_eq!((problem.model.joints.len(), joint.name.as_str()), (1, "rim~core~plate"));
+        let c = &joint.coupling.midplane;
+        assert!(c.pieces.len() == 1 && c.pieces[0].closed && c.segments.len() == n);
+        if !shape.is_quadratic() {
+            close(c.length, 2.0 * n as f64 * (PI / n as f64).sin(), 1e-14, 1.0, "perimeter");
+        }
+        let state = solve(&problem).0.remove(0);
+        let (limit, scale) = (10.0 * e / (k * PI / n as f64), 2e-3);
+        for (b, body) in problem.model.bodies.iter().enumerate() {
+            for (i, [x, y]) in body.mesh.points.iter().enumerate() {
+                let u = displacement(&problem, &state, b, i);
+                close(u[0], 2e-3 * x + 1e-3 * y, limit, scale, &format!("{shape:?} u_x"));
+                close(u[1], 3e-4 * x - 1e-3 * y, limit, scale, &format!("{shape:?} u_y"));
+            }
+        }
+    }
+}
