@@ -5,14 +5,14 @@
 
 use std::time::Instant;
 
-use indexmap::IndexMap;
 use midplane::assembly::{Pattern, Symmetric};
-use midplane::mesh::{Cells, Edge, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::run::{Clock, march, memory};
 use midplane::scene;
-use midplane::shape::Shape;
 use midplane::solver::{Cut, Parts, Plan, Symbolic, nested_dissection};
+
+mod layers;
+use layers::layers;
 
 const SCENE: &str = r#"{ "plane": "strain",
   "subdomains": { "lower": { "msh": "lower", "material": "rock" }, "upper": { "msh": "upper", "material": "rock" } },
@@ -32,12 +32,8 @@ fn main() {
 }
 
 fn measure(dofs: usize) -> Result<(), String> {
-    // n edges along and n/4 rows in each layer: n² dofs in both
-    let n = (dofs as f64).sqrt();
-    let (a, b) = ((0.98 * n).round() as usize, (1.02 * n).round() as usize);
     let scene = scene::parse("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
-    let meshes = vec![layer(a, a / 4, -0.5), layer(b, b / 4, 0.0)];
-    let problem = timed("bind", || Problem::bind(&scene, meshes)).map_err(|e| e.to_string())?;
+    let problem = timed("bind", || Problem::bind(&scene, layers(dofs))).map_err(|e| e.to_string())?;
     let model = &problem.model;
     println!("{} dofs", model.dofs());
 
@@ -84,33 +80,4 @@ fn timed<T>(stage: &str, work: impl FnOnce() -> T) -> T {
     let result = work();
     println!("    {stage:<27} {:8.3} s", start.elapsed().as_secs_f64());
     result
-}
-
-/// A layer 2 × 0.5 of Q4 whose lower edge is at `y`.
-fn layer(nx: usize, ny: usize, y: f64) -> Mesh {
-    let node = |i: usize, j: usize| j * (nx + 1) + i;
-    let mut mesh = Mesh { file: "layer.msh".into(), ..Mesh::default() };
-    for j in 0..=ny {
-        let y = y + 0.5 * j as f64 / ny as f64;
-        mesh.points.extend((0..=nx).map(|i| [2.0 * i as f64 / nx as f64, y]));
-    }
-    let mut cells = Cells::default();
-    for j in 0..ny {
-        for i in 0..nx {
-            cells.push(
-                Shape::Quadrilateral4,
-                &[node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)],
-            );
-        }
-    }
-    mesh.cells = cells;
-    let edge = |start, end, cell| Edge { nodes: [start, end, end], cell, boundary: true };
-    let mut groups = IndexMap::new();
-    let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
-    curve("bottom", (0..nx).map(|i| edge(node(i, 0), node(i + 1, 0), i)).collect());
-    curve("right", (0..ny).map(|j| edge(node(nx, j), node(nx, j + 1), j * nx + nx - 1)).collect());
-    curve("top", (0..nx).map(|i| edge(node(i + 1, ny), node(i, ny), (ny - 1) * nx + i)).collect());
-    curve("left", (0..ny).map(|j| edge(node(0, j + 1), node(0, j), j * nx)).collect());
-    mesh.groups = groups;
-    mesh
 }
