@@ -94,10 +94,25 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
 
-bench:            ## the linear path by stage at 100 000 dofs (all sizes: cargo bench --bench large); ns of the laws
-	cargo bench --locked --bench large -- 100000
+BENCHED := results/bench/scenes.csv $(wildcard results/bench/peers*.csv)
+
+bench: $(MIDPLANE) $(VENV)  ## whole runs of 10 000 to 1 000 000 dofs, then the kernels: results/bench/, some minutes
+	python3 benches/scenes.py $(MIDPLANE)
+	$(PYTHON) benches/plot.py $(BENCHED) -o results/bench/bench.png
+	cargo bench --locked --bench kernels --bench law
+
+bench-quick: $(MIDPLANE) $(VENV)  ## the same at 10 000 dofs only, in seconds
+	python3 benches/scenes.py $(MIDPLANE) --sizes 10k --repeat 2 -o results/bench-quick
+	$(PYTHON) benches/plot.py results/bench-quick/scenes.csv -o results/bench-quick/bench.png
+	cargo bench --locked --bench kernels -- '10000$$'
 	cargo bench --locked --bench law
 	cargo bench --locked --bench pairing
+
+bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve and scikit-fem, installed in .venv-peers: results/bench/peers.csv
+	test -d .venv-peers || python3 -m venv .venv-peers
+	for peer in ngsolve scikit-fem pypardiso; do .venv-peers/bin/pip install --quiet $$peer \
+	    -c benches/peers/requirements.txt meshio scipy || echo "$$peer: cannot be installed, skipped"; done
+	python3 benches/peers/compare.py $(MIDPLANE) .venv-peers/bin/python
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
@@ -132,4 +147,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 18
 
-.PHONY: all tools build test bench law verify lint docs clean help
+.PHONY: all tools build test bench bench-quick bench-peers law verify lint docs clean help
