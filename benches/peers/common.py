@@ -36,8 +36,7 @@ class Clock:
 
 
 def read(folder):
-    """Points and quadrilaterals of both layers, their joint sides' nodes in order of x, and the points and cells of both
-    together, those of the lower layer first."""
+    """Points and quadrilaterals of the lower and of the upper layer."""
     layers = []
     for name in ("lower", "upper"):
         mesh = meshio.read(Path(folder) / f"{name}.msh", file_format="gmsh")

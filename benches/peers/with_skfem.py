@@ -1,4 +1,6 @@
-"""scikit-fem with MKL PARDISO (pypardiso), or SuperLU where that is missing: python with_skfem.py elastic|friction FOLDER OUT"""
+"""scikit-fem with MKL PARDISO (pypardiso), or SuperLU where that is missing.
+
+    python with_skfem.py elastic|friction FOLDER OUT"""
 
 import sys
 
