@@ -114,6 +114,11 @@ bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve and scikit-fem, instal
 	    -c benches/peers/requirements.txt meshio scipy || echo "$$peer: cannot be installed, skipped"; done
 	python3 benches/peers/compare.py $(MIDPLANE) .venv-peers/bin/python
 
+bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/BENCH.md
+	$(PYTHON) benches/plot.py $(BENCHED) -o docs/bench.png
+	python3 benches/table.py docs/BENCH.md $(BENCHED)
+	mkdir -p docs/bench && cp $(BENCHED) docs/bench/
+
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
 	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test example1 --test patch --test round --test verify
@@ -147,4 +152,4 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 18
 
-.PHONY: all tools build test bench bench-quick bench-peers law verify lint docs clean help
+.PHONY: all tools build test bench bench-quick bench-peers bench-docs law verify lint docs clean help

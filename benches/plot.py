@@ -1,4 +1,4 @@
-"""Draw the tables of benches/scenes.py and benches/peers/compare.py: time against dofs, cost of an iteration against dofs.
+"""Draw the tables of scenes.py and peers/compare.py: time against dofs, cost of an iteration against dofs.
 
     .venv/bin/python benches/plot.py results/bench/scenes.csv [results/bench/peers.csv ...] -o docs/bench.png"""
 
@@ -71,7 +71,7 @@ def main():
         axes.set(xscale="log", yscale="log", xlabel="dofs")
         axes.grid(True, which="both", alpha=0.2)
         axes.legend(fontsize=8)
-    figure.text(0.005, 0.005, about, fontsize=6, color="grey")
+    figure.supxlabel(about, fontsize=6, color="grey")
     figure.savefig(options.out, dpi=120)
 
 

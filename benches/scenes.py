@@ -92,7 +92,7 @@ def machine():
 
 def write(path, rows, about):
     """A CSV file with a comment on where it comes from."""
-    rows = [{k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows]
+    rows = [{k: f"{v:.9g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows]
     with open(path, "w", newline="") as file:
         file.write(f"# {about}\n")
         table = csv.DictWriter(file, rows[0], lineterminator="\n")
