@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use crate::assembly::{Joint, Tangent};
+use crate::assembly::Tangent;
 
 use super::{Form, Respond};
 
