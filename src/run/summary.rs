@@ -61,6 +61,8 @@ struct Solution {
     /// Increments that had to be halved.
     halved: usize,
     factorisations: usize,
+    /// Where the path of equilibria turned: after which increment, in which step, at which load level.
+    turns: Vec<(usize, String, f64)>,
     /// "joined", "in parts", "condensed" or "plain".
     strategy: &'static str,
     factor_entries: usize,
@@ -152,6 +154,7 @@ pub(super) fn summary<'a>(
             increments: totals.increments,
             iterations: totals.iterations,
             halved: totals.halved,
+            turns: totals.turns.clone(),
             factorisations: totals.factorisations,
             strategy: totals.strategy,
             factor_entries: totals.factor_entries,
