@@ -104,6 +104,7 @@ bench: $(MIDPLANE) $(VENV)  ## whole runs of 10 000 to 1 000 000 dofs, then the 
 bench-quick: $(MIDPLANE) $(VENV)  ## the same at 10 000 dofs only, in seconds
 	python3 benches/scenes.py $(MIDPLANE) --sizes 10k --repeat 2 -o results/bench-quick
 	$(PYTHON) benches/plot.py results/bench-quick/scenes.csv -o results/bench-quick/bench.png
+	python3 benches/below.py $(MIDPLANE) --repeat 3
 	cargo bench --locked --bench kernels -- '10000$$'
 	cargo bench --locked --bench law
 	cargo bench --locked --bench pairing
