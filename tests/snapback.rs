@@ -83,3 +83,23 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
         }
     }
 }
+
+#[test]
+fn an_increment_that_goes_too_far_from_the_start_is_divided() {
+    // the whole failure within the first increment
+    let c = 1.0 / E + 1.0 / KN;
+    let exact = |s: f64| s * c - GI / CHI * (s / CHI).ln();
+    let end = 1.1 * CHI * c;
+    let bar =
+        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let text = scene(end, "auto", "condensed").replace("\"increments\": 40", "\"increments\": 1");
+    let problem = bind(&text, vec![bar(-0.5), bar(0.0)]).unwrap();
+    let march = try_solve(&problem);
+    assert!(march.end.is_ok(), "{:?}", march.end.err());
+    assert!(march.states.len() > 5);
+    for (state, level) in march.states.iter().zip(&march.load_factors) {
+        let s = state.snapshot.tractions[0][0][0];
+        let u = if state.dissipated > 0.0 { exact(s) } else { s * c };
+        close(level * end, u, 1e-6, CHI * c, "on the path");
+    }
+}

@@ -24,6 +24,8 @@ const SMALLEST: usize = 20;
 /// `TRACTIONS` times an increment's part may change.
 const WIDE: f64 = 2.0;
 const TRACTIONS: f64 = 4.0;
+/// Before anything is stored an increment that dissipates is divided down to this part.
+const LEAST: f64 = 1e-3;
 /// Joints that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
 /// Most increments per increment of the scene.
@@ -95,6 +97,14 @@ impl<'a> Course<'a, '_> {
         let reached = if at.level + 1.001 * part >= 1.0 { 1.0 } else { at.level + part };
         if let Some(iterations) = self.by_load(start, at, reached, 0.0)? {
             return Ok(Ok(iterations));
+        }
+        let mut width = part;
+        while self.state.stored <= 0.0 && width > LEAST * part {
+            // no energy yet to compare with: a smaller increment
+            width *= 0.5;
+            if let Some(iterations) = self.by_load(start, at, at.level + width, 0.0)? {
+                return Ok(Ok(iterations));
+            }
         }
         let mut amount = FIRST * self.state.stored;
         let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
