@@ -57,6 +57,19 @@ impl Csr {
         self
     }
 
+    /// Entries a − b on this pattern without those that are zero.
+    pub fn less(&self, a: &[f64], b: &[f64]) -> Csr {
+        let mut change = Csr { offsets: vec![0], width: self.width, ..Csr::default() };
+        for i in 0..self.rows() {
+            for k in (self.offsets[i]..self.offsets[i + 1]).filter(|&k| a[k] != b[k]) {
+                change.columns.push(self.columns[k]);
+                change.values.push(a[k] - b[k]);
+            }
+            change.offsets.push(change.columns.len());
+        }
+        change
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.offsets.len() - 1

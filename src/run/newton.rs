@@ -70,6 +70,12 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
     ) -> Self {
         let active = active(problem);
         let size: usize = active.iter().map(|&k| problem.model.joints[k].size()).sum();
+        let sound: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.joints))
+            .map(|((law, _), joint)| {
+                let [kn, kt] = law.elastic_stiffness();
+                [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
+            })
+            .collect();
         let mut condensed: Option<Arc<Condensation>> = None;
         let make = move |held: &[bool]| {
             let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
@@ -80,7 +86,7 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
             };
             condensed = Some(condensation.clone());
             let base = Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?;
-            Ok((Dual::new(base, &active, stiffness), anew))
+            Ok((Dual::new(base, &active, stiffness, &sound), anew))
         };
         NewtonEngine::new(problem, settings, Box::new(make), size)
     }

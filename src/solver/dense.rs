@@ -67,11 +67,20 @@ impl Lu {
 
     /// Solves A x = b in place.
     pub(super) fn solve(&self, b: &mut [f64]) {
-        let n = b.len();
-        let mut memory = MemBuffer::new(lu::solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq));
+        self.solve_with(column_mut(b), Par::Seq);
+    }
+
+    /// Solves A X = B in place, one right-hand side a column.
+    pub(super) fn solve_many(&self, b: MatMut<f64>) {
+        let par = parallelism(b.ncols());
+        self.solve_with(b, par);
+    }
+
+    fn solve_with(&self, b: MatMut<f64>, par: Par) {
+        let (n, count) = (b.nrows(), b.ncols());
+        let mut memory = MemBuffer::new(lu::solve::solve_in_place_scratch::<usize, f64>(n, count, par));
         let order = PermRef::new_checked(&self.rows, &self.rows_back, n);
-        let factors = self.factors.as_ref();
-        let stack = MemStack::new(&mut memory);
-        lu::solve::solve_in_place(factors, factors, order, column_mut(b), Par::Seq, stack);
+        let (factors, stack) = (self.factors.as_ref(), MemStack::new(&mut memory));
+        lu::solve::solve_in_place(factors, factors, order, b, par, stack);
     }
 }

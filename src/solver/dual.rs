@@ -11,7 +11,8 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 
-use super::dense::{Lu, column_mut};
+use super::dense::column_mut;
+use super::jacobian::Jacobian;
 use super::measure::Functional;
 use super::{Base, Form, Measure, Ramp, Solution};
 use crate::assembly::{Joint, Tangent};
@@ -37,28 +38,34 @@ pub struct Dual<'a> {
     /// Targets at both ends of a prepared step, and its measures.
     targets: [Vec<f64>; 2],
     functionals: Vec<Functional>,
-    jacobian: Option<Lu>,
-    /// Values of the tangents that are factored.
-    factored: Vec<Vec<f64>>,
+    jacobian: Jacobian,
 }
 
 impl<'a> Dual<'a> {
-    /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point.
-    pub fn new(base: Base<'a>, active: &[usize], stiffness: &[Vec<f64>]) -> Dual<'a> {
-        let springs: Vec<Csr> = active
-            .iter()
-            .map(|&k| {
+    /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point and whose laws
+    /// have the stiffness `sound` there before anything has cracked or slipped.
+    pub fn new(
+        base: Base<'a>,
+        active: &[usize],
+        stiffness: &[Vec<f64>],
+        sound: &[Vec<f64>],
+    ) -> Dual<'a> {
+        let matrices = |stiffness: &[Vec<f64>]| -> Vec<Csr> {
+            let matrix = |&k: &usize| {
                 let mut tangent = Tangent::new(&base.joints[k]);
                 tangent.fill(&base.joints[k], &stiffness[k]);
                 tangent.matrix
-            })
-            .collect();
+            };
+            active.iter().map(matrix).collect()
+        };
+        let springs = matrices(stiffness);
+        let jacobian = Jacobian::new(&springs, &matrices(sound));
         let mut first = vec![0];
         springs.iter().for_each(|springs| first.push(first[first.len() - 1] + springs.rows()));
         let flexibility = base.flexibility(active);
         let active = active.to_vec();
-        let (targets, functionals, factored) = ([Vec::new(), Vec::new()], Vec::new(), Vec::new());
-        Dual { base, active, springs, first, flexibility, targets, functionals, jacobian: None, factored }
+        let (targets, functionals) = ([Vec::new(), Vec::new()], Vec::new());
+        Dual { base, active, springs, first, flexibility, targets, functionals, jacobian }
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -157,33 +164,12 @@ impl Form for Dual<'_> {
     }
 
     fn factor(&mut self, tangents: &[Tangent]) -> bool {
-        let same = |(old, new): (&Vec<f64>, &Tangent)| *old == new.matrix.values;
-        if self.jacobian.is_some() && self.factored.iter().zip(tangents).all(same) {
-            return true;
-        }
-        let m = self.flexibility.nrows();
-        let mut jacobian = Mat::<f64>::identity(m, m);
-        for (k, tangent) in tangents.iter().enumerate() {
-            let first = self.first[k];
-            // the springs' pattern is the tangent's own
-            for i in 0..tangent.matrix.rows() {
-                let from = self.flexibility.col(first + i);
-                let (columns, values) = tangent.matrix.row(i);
-                for ((&j, value), spring) in columns.iter().zip(values).zip(self.springs[k].row(i).1) {
-                    let (into, factor) = (jacobian.col_mut(first + j), value - spring);
-                    faer::zip!(into, from).for_each(|faer::unzip!(into, from)| *into += factor * *from);
-                }
-            }
-        }
-        self.factored = tangents.iter().map(|tangent| tangent.matrix.values.clone()).collect();
-        self.jacobian = Some(Lu::new(jacobian));
+        self.jacobian.factor(self.flexibility.as_ref(), tangents);
         true
     }
 
     fn solve(&self, b: &mut [f64]) {
-        if let Some(jacobian) = &self.jacobian {
-            jacobian.solve(b);
-        }
+        self.jacobian.solve(b);
     }
 
     /// a − G u: F₀ carries the rounding of the condensation, which stiff bodies on soft joints magnify; u does not.

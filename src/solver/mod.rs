@@ -8,6 +8,7 @@ mod dense;
 mod dual;
 mod form;
 mod graph;
+mod jacobian;
 mod linear;
 mod measure;
 mod newton;

@@ -1,0 +1,145 @@
+//! J = I + F₀ (T − T₀): factored once for sound joints, and from there by the rows of T that are no longer sound.
+//!
+//! ```text
+//! J = Jₛ (1 + W ΔT)      Jₛ = I + F₀ (Tₛ − T₀)      W = Jₛ⁻¹ F₀      ΔT = T − Tₛ
+//! J⁻¹ b = z − W_R y      z = Jₛ⁻¹ b      (1 + ΔT_R W_R) y = ΔT_R z      R: rows of ΔT that are not zero
+//! ```
+//!
+//! Only the small matrix of R is factored in an iteration: a sliding point has one row of its two, a sound one none. The base
+//! depends on the supports alone and not on the way here, so that a run repeats bit by bit from any of its increments.
+//! Where hardly a row is sound the whole is factored; so it is where sound springs are much stiffer than the base: then
+//! 1 + ΔT W is what is left of a difference.
+
+use faer::{Mat, MatRef};
+use rayon::prelude::*;
+
+use super::dense::Lu;
+use crate::assembly::Tangent;
+use crate::coupling::Csr;
+
+/// Of all rows at most this part is updated: the cubes of the sizes are then as one to two.
+const PART: f64 = 0.8;
+/// Sound springs of at most this many times the base springs leave half of the digits to 1 + ΔT W.
+const STIFFER: f64 = 1e4;
+
+/// The Jacobian of the condensed form.
+#[derive(Debug)]
+pub(super) struct Jacobian {
+    /// Pattern of T over all active joints, with the values of T₀.
+    springs: Csr,
+    /// Values of Tₛ.
+    sound: Vec<f64>,
+    /// Sound springs are not too stiff for updates.
+    updates: bool,
+    base: Option<Sound>,
+    /// Values of T, and the factor for them.
+    factored: Option<(Vec<f64>, Factor)>,
+}
+
+#[derive(Debug)]
+struct Sound {
+    lu: Lu,
+    /// W.
+    flexibility: Mat<f64>,
+}
+
+#[derive(Debug)]
+enum Factor {
+    Whole(Lu),
+    Update { rows: Vec<usize>, change: Csr, lu: Lu },
+}
+
+impl Jacobian {
+    /// For joints with these springs T₀ and sound stiffnesses Tₛ on the same patterns.
+    pub(super) fn new(springs: &[Csr], sound: &[Csr]) -> Jacobian {
+        let (springs, sound) = (stack(springs), stack(sound).values);
+        let stiffer = |(s, t): (&f64, &f64)| s.abs() > STIFFER * t.abs() && *s != 0.0;
+        let updates = !sound.iter().zip(&springs.values).any(stiffer);
+        Jacobian { springs, sound, updates, base: None, factored: None }
+    }
+
+    /// Factors J for the tangents of all active joints, unless that is what is factored.
+    pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[Tangent]) {
+        let values: Vec<f64> =
+            tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
+        if self.factored.as_ref().is_some_and(|(of, _)| *of == values) {
+            return;
+        }
+        let change = self.springs.less(&values, &self.sound);
+        let rows: Vec<usize> = (0..change.rows()).filter(|&i| !change.row(i).0.is_empty()).collect();
+        let factor = if self.updates && rows.len() as f64 <= PART * change.rows() as f64 {
+            let of_base = || Sound::new(flexibility, &self.springs.less(&self.sound, &self.springs.values));
+            let base = self.base.get_or_insert_with(of_base);
+            let mut matrix = Mat::<f64>::zeros(rows.len(), rows.len());
+            matrix.as_mut().par_col_iter_mut().enumerate().for_each(|(b, mut column)| {
+                let moved = base.flexibility.col(rows[b]);
+                for (a, &row) in rows.iter().enumerate() {
+                    let (columns, values) = change.row(row);
+                    let sum: f64 = columns.iter().zip(values).map(|(&k, value)| value * moved[k]).sum();
+                    column[a] = if a == b { 1.0 + sum } else { sum };
+                }
+            });
+            Factor::Update { rows, change, lu: Lu::new(matrix) }
+        } else {
+            Factor::Whole(Lu::new(whole(flexibility, &self.springs.less(&values, &self.springs.values))))
+        };
+        self.factored = Some((values, factor));
+    }
+
+    /// J⁻¹ b in place.
+    pub(super) fn solve(&self, b: &mut [f64]) {
+        match (&self.factored, &self.base) {
+            (Some((_, Factor::Whole(lu))), _) => lu.solve(b),
+            (Some((_, Factor::Update { rows, change, lu })), Some(base)) => {
+                base.lu.solve(b);
+                let product = |&row: &usize| {
+                    let (columns, values) = change.row(row);
+                    columns.iter().zip(values).map(|(&k, value)| value * b[k]).sum()
+                };
+                let mut y: Vec<f64> = rows.iter().map(product).collect();
+                lu.solve(&mut y);
+                for (&row, y) in rows.iter().zip(&y) {
+                    b.iter_mut().zip(base.flexibility.col(row).iter()).for_each(|(b, w)| *b -= y * w);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Sound {
+    fn new(flexibility: MatRef<f64>, stiffer: &Csr) -> Sound {
+        let lu = Lu::new(whole(flexibility, stiffer));
+        let mut moved = flexibility.to_owned();
+        lu.solve_many(moved.as_mut());
+        Sound { lu, flexibility: moved }
+    }
+}
+
+/// I + F₀ C for a sparse C.
+fn whole(flexibility: MatRef<f64>, change: &Csr) -> Mat<f64> {
+    let by_columns = change.transposed();
+    let mut matrix = Mat::<f64>::zeros(flexibility.nrows(), flexibility.ncols());
+    matrix.as_mut().par_col_iter_mut().enumerate().for_each(|(j, mut column)| {
+        let (rows, values) = by_columns.row(j);
+        for (&i, &factor) in rows.iter().zip(values) {
+            faer::zip!(column.as_mut(), flexibility.col(i))
+                .for_each(|faer::unzip!(into, from)| *into += factor * *from);
+        }
+        column[j] += 1.0;
+    });
+    matrix
+}
+
+/// Matrices one after the other on the diagonal.
+fn stack(parts: &[Csr]) -> Csr {
+    let mut all = Csr { offsets: vec![0], ..Csr::default() };
+    for part in parts {
+        let (rows, entries) = (all.rows(), all.values.len());
+        all.offsets.extend(part.offsets[1..].iter().map(|offset| entries + offset));
+        all.columns.extend(part.columns.iter().map(|column| rows + column));
+        all.values.extend_from_slice(&part.values);
+        all.width += part.width;
+    }
+    all
+}
