@@ -130,7 +130,8 @@ fn newton_step(bencher: Bencher, dofs: usize) {
     let springs = [SPRINGS.repeat(joints[0].coupling.points.len())];
     let continuum = continuum(&problem);
     let base = Base::new(&continuum, Arc::new(condense(&continuum, held)), joints, &springs, held);
-    let mut form = Dual::new(base.unwrap_or_else(|error| unreachable!("{error:?}")), &[0], &springs);
+    let mut form =
+        Dual::new(base.unwrap_or_else(|error| unreachable!("{error:?}")), &[0], &springs, &springs);
     let mut tangents = [Tangent::new(&joints[0])];
     let (mut tractions, mut stiffness) = (Vec::new(), Vec::new());
     let mut x = vec![1e-6; joints[0].size()];

@@ -71,7 +71,7 @@ fn factor(plan: &Plan, pattern: &Pattern, matrix: &Symmetric) -> Result<(), Stri
     println!("    {:<27} {:8.2} million entries", plan.strategy(), plan.entries() as f64 / 1e6);
     let factor = timed("numeric", || plan.factor(pattern, matrix)).map_err(|e| format!("{e:?}"))?;
     let mut x = vec![1.0; pattern.size()];
-    timed("solve", || factor.solve(&mut x));
+    timed("solve", || factor.solve(std::slice::from_mut(&mut x)));
     Ok(())
 }
 

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, Mat};
+use faer::{Accum, Mat, MatMut};
 
-use super::dense::{cholesky, cholesky_solve, cholesky_solve_many, parallelism};
+use super::dense::{cholesky, cholesky_solve, parallelism};
 use super::linear::tractions;
 use super::refine::Factored;
 use super::{Condensation, Continuum, NotPositiveDefinite, Solution};
@@ -60,6 +60,17 @@ impl<'a> Base<'a> {
         Ok(Base { continuum, condensation, joints, stiffness, held: held.to_vec(), border })
     }
 
+    /// Solves with the border in place; held dofs stay where they are.
+    fn solve_border(&self, mut x: MatMut<f64>) {
+        let held = self.held.iter().zip(&self.continuum.places).filter(|(held, _)| **held);
+        let places: Vec<usize> = held.filter_map(|(_, place)| place.map(|place| place as usize)).collect();
+        let clear =
+            |x: &mut MatMut<f64>| (0..x.ncols()).for_each(|k| places.iter().for_each(|&i| x[(i, k)] = 0.0));
+        clear(&mut x);
+        cholesky_solve(&self.border, x.as_mut());
+        clear(&mut x);
+    }
+
     /// Solves for external forces `f` and prescribed displacements (read where held).
     pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> Solution {
         self.refined(f, prescribed)
@@ -71,15 +82,7 @@ impl<'a> Base<'a> {
         let held = |dof: usize| self.held[dof];
         b.iter_mut().for_each(|b| (0..b.len()).filter(|&dof| held(dof)).for_each(|dof| b[dof] = 0.0));
         let mut x = self.continuum.on_border(&self.condensation, &b);
-        let zero: Vec<usize> = (0..self.held.len())
-            .filter(|&dof| held(dof))
-            .filter_map(|dof| self.continuum.places[dof].map(|place| place as usize))
-            .collect();
-        let clear =
-            |x: &mut Mat<f64>| (0..x.ncols()).for_each(|k| zero.iter().for_each(|&i| x[(i, k)] = 0.0));
-        clear(&mut x);
-        cholesky_solve_many(&self.border, x.as_mut());
-        clear(&mut x);
+        self.solve_border(x.as_mut());
         let at =
             |dof: usize, k: usize| self.continuum.places[dof].map_or(0.0, |place| x[(place as usize, k)]);
         let of = |k: usize| {
@@ -142,14 +145,7 @@ impl Factored for Base<'_> {
         }
     }
 
-    fn apply(&self, b: &mut [f64]) {
-        self.continuum.solve(&self.condensation, b, |x| {
-            for (dof, _) in self.held.iter().enumerate().filter(|(_, held)| **held) {
-                if let Some(place) = self.continuum.places[dof] {
-                    x[place as usize] = 0.0;
-                }
-            }
-            cholesky_solve(&self.border, x);
-        });
+    fn apply(&self, b: &mut [Vec<f64>]) {
+        self.continuum.solve(&self.condensation, b, |x| self.solve_border(x));
     }
 }

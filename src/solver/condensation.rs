@@ -6,7 +6,7 @@
 //!
 //! Springs and supports on the joints act on S alone, so that they never touch the sparse factors.
 
-use faer::Mat;
+use faer::{Mat, MatMut};
 
 use super::{Cut, NotPositiveDefinite, Parts, TooLarge, nested_dissection};
 use crate::assembly::{Model, Pattern, Symmetric};
@@ -78,7 +78,12 @@ impl Continuum {
     }
 
     /// Solves with a condensation in place; `border` solves on the joints' dofs.
-    pub(super) fn solve(&self, condensation: &Condensation, b: &mut [f64], border: impl FnOnce(&mut [f64])) {
+    pub(super) fn solve(
+        &self,
+        condensation: &Condensation,
+        b: &mut [Vec<f64>],
+        border: impl FnOnce(MatMut<f64>),
+    ) {
         self.parts.solve(&condensation.values, b, border);
     }
 }

@@ -32,13 +32,8 @@ pub(super) fn cholesky(s: &mut Mat<f64>, par: Par) -> Result<(), NotPositiveDefi
         .map_err(|_| NotPositiveDefinite)
 }
 
-/// Solves L Lᵀ x = b in place.
-pub(super) fn cholesky_solve(l: &Mat<f64>, b: &mut [f64]) {
-    cholesky_solve_many(l, column_mut(b));
-}
-
 /// Solves L Lᵀ X = B in place, one right-hand side a column.
-pub(super) fn cholesky_solve_many(l: &Mat<f64>, b: MatMut<f64>) {
+pub(super) fn cholesky_solve(l: &Mat<f64>, b: MatMut<f64>) {
     let scratch = llt::solve::solve_in_place_scratch::<f64>(b.nrows(), b.ncols(), Par::Seq);
     llt::solve::solve_in_place(l.as_ref(), b, Par::Seq, MemStack::new(&mut MemBuffer::new(scratch)));
 }

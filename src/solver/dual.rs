@@ -14,6 +14,7 @@ use faer::{Accum, Mat, MatRef, Par};
 use super::dense::column_mut;
 use super::jacobian::Jacobian;
 use super::measure::Functional;
+use super::refine::Factored;
 use super::{Base, Form, Measure, Ramp, Solution};
 use crate::assembly::{Joint, Tangent};
 use crate::coupling::Csr;
@@ -44,12 +45,7 @@ pub struct Dual<'a> {
 impl<'a> Dual<'a> {
     /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point and whose laws
     /// have the stiffness `sound` there before anything has cracked or slipped.
-    pub fn new(
-        base: Base<'a>,
-        active: &[usize],
-        stiffness: &[Vec<f64>],
-        sound: &[Vec<f64>],
-    ) -> Dual<'a> {
+    pub fn new(base: Base<'a>, active: &[usize], stiffness: &[Vec<f64>], sound: &[Vec<f64>]) -> Dual<'a> {
         let matrices = |stiffness: &[Vec<f64>]| -> Vec<Csr> {
             let matrix = |&k: &usize| {
                 let mut tangent = Tangent::new(&base.joints[k]);
@@ -96,7 +92,8 @@ impl Form for Dual<'_> {
     fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool {
         self.functionals.clear();
         let Some(ramp) = ramp else { return false };
-        let ends = [0, 1].map(|end| self.base.solve(&ramp.force[end], &ramp.prescribed[end]));
+        let loads = [0, 1].map(|end| (&ramp.force[end][..], &ramp.prescribed[end][..]));
+        let ends = self.base.refined_all(&loads);
         let on_joints = |solution: &Solution| -> Vec<f64> {
             self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&solution.u)).collect()
         };

@@ -60,8 +60,7 @@ impl Jacobian {
 
     /// Factors J for the tangents of all active joints, unless that is what is factored.
     pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[Tangent]) {
-        let values: Vec<f64> =
-            tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
+        let values: Vec<f64> = tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
         if self.factored.as_ref().is_some_and(|(of, _)| *of == values) {
             return;
         }

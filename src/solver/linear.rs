@@ -72,7 +72,7 @@ impl Factored for Linear<'_> {
         self.total.add_absolute_product(self.system.pattern, u, scale);
     }
 
-    fn apply(&self, b: &mut [f64]) {
+    fn apply(&self, b: &mut [Vec<f64>]) {
         self.factor.solve(b);
     }
 }

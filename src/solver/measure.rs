@@ -40,7 +40,7 @@ impl Functional {
         base: &Base,
         active: &[usize],
         ramp: &Ramp,
-        ends: &[Solution; 2],
+        ends: &[Solution],
         measures: &[Measure],
     ) -> Vec<Functional> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

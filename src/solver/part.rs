@@ -10,7 +10,6 @@ use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_uppe
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
-use super::dense::column_mut;
 use super::graph::Graph;
 use super::{NotPositiveDefinite, Symbolic};
 use crate::assembly::{Pattern, Symmetric};
@@ -164,13 +163,19 @@ impl Part {
         }
     }
 
-    /// Lᵀ x = y through the part's own columns.
-    pub(super) fn backward(&self, values: &[f64], y: &mut [f64]) {
+    /// Lᵀ x = y through the part's own columns, for one right-hand side a column.
+    pub(super) fn backward(&self, values: &[f64], mut y: MatMut<f64>) {
+        let count = y.ncols();
+        let mut below = vec![0.0; y.nrows() * count];
         for Own { start, triangle, rest, rows } in self.own(values).rev() {
-            let below: Vec<f64> = rows.iter().map(|&i| y[i]).collect();
-            let x = &mut y[start..start + triangle.ncols()];
-            matmul(column_mut(x), Accum::Add, rest.transpose(), column(&below), -1.0, Par::Seq);
-            solve_upper_triangular_in_place(triangle.transpose(), column_mut(x), Par::Seq);
+            let mut below =
+                MatMut::from_column_major_slice_mut(&mut below[..rows.len() * count], rows.len(), count);
+            for k in 0..count {
+                rows.iter().enumerate().for_each(|(i, &row)| below[(i, k)] = y[(row, k)]);
+            }
+            let mut x = y.as_mut().subrows_mut(start, triangle.ncols());
+            matmul(x.as_mut(), Accum::Add, rest.transpose(), below, -1.0, Par::Seq);
+            solve_upper_triangular_in_place(triangle.transpose(), x, Par::Seq);
         }
     }
 }
@@ -181,8 +186,4 @@ struct Own<'a> {
     triangle: MatRef<'a, f64>,
     rest: MatRef<'a, f64>,
     rows: Vec<usize>,
-}
-
-fn column(x: &[f64]) -> MatRef<'_, f64> {
-    MatRef::from_column_major_slice(x, x.len(), 1)
 }

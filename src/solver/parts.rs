@@ -15,11 +15,11 @@
 //! 400 000 and a million dofs (alternating runs), with a sixth more memory; on one thread at 400 000 dofs 1.2.
 //! Cut along the joint instead, one body a part, the border is three times as large and the time 0.91 and 0.94.
 
-use faer::{Mat, Par};
+use faer::{Mat, MatMut, Par};
 use rayon::prelude::*;
 
 use super::cut::Cut;
-use super::dense::{cholesky, cholesky_solve, column_mut};
+use super::dense::{cholesky, cholesky_solve};
 use super::graph::NONE;
 use super::part::{Block, Part};
 use super::{NotPositiveDefinite, Symbolic, TooLarge};
@@ -148,6 +148,11 @@ impl Parts {
 
     /// b_C − Σ Bₚ Aₚ⁻¹ bₚ on the border for several right-hand sides, one a column: all that the border needs of them.
     pub fn on_border(&self, values: &[Vec<f64>], b: &[Vec<f64>]) -> Mat<f64> {
+        self.forward(values, b).1
+    }
+
+    /// Both substitutions' way down: every part's own dofs and its contribution to the border, and what the border then has.
+    fn forward(&self, values: &[Vec<f64>], b: &[Vec<f64>]) -> (Vec<Mat<f64>>, Mat<f64>) {
         let inner: Vec<Mat<f64>> = self
             .parts
             .par_iter()
@@ -168,44 +173,34 @@ impl Parts {
                 }
             }
         }
-        x
+        (inner, x)
     }
 
-    /// Solves A x = b in place with the parts' factors and whatever solves S x_C = b_C in place.
-    pub fn solve(&self, values: &[Vec<f64>], b: &mut [f64], border_solve: impl FnOnce(&mut [f64])) {
-        let Parts { parts, border } = self;
-        let mut inner: Vec<Vec<f64>> = parts
-            .par_iter()
-            .zip(values)
-            .map(|(part, values)| {
-                let mut y = vec![0.0; part.block.dofs.len()];
-                y.iter_mut()
-                    .zip(&part.block.dofs)
-                    .take(part.inner)
-                    .for_each(|(y, &dof)| *y = b[dof as usize]);
-                part.forward(values, column_mut(&mut y));
-                y
-            })
-            .collect();
-        let mut x: Vec<f64> = border.dofs.iter().map(|&dof| b[dof as usize]).collect();
-        for (part, y) in parts.iter().zip(&inner) {
-            part.border.iter().zip(&y[part.inner..]).for_each(|(&k, y)| x[k as usize] += y);
-        }
-        border_solve(&mut x);
-        parts.par_iter().zip(values).zip(&mut inner).for_each(|((part, values), y)| {
-            y[part.inner..].iter_mut().zip(&part.border).for_each(|(y, &k)| *y = x[k as usize]);
-            part.backward(values, y);
+    /// Solves A X = B in place with the parts' factors and whatever solves S X_C = B_C in place.
+    pub fn solve(&self, values: &[Vec<f64>], b: &mut [Vec<f64>], border_solve: impl FnOnce(MatMut<f64>)) {
+        let (mut inner, mut x) = self.forward(values, b);
+        border_solve(x.as_mut());
+        self.parts.par_iter().zip(values).zip(&mut inner).for_each(|((part, values), y)| {
+            for k in 0..y.ncols() {
+                for (i, &place) in part.border.iter().enumerate() {
+                    y[(part.inner + i, k)] = x[(place as usize, k)];
+                }
+            }
+            part.backward(values, y.as_mut());
         });
-        for (part, y) in parts.iter().zip(&inner) {
-            part.block.dofs.iter().zip(y).take(part.inner).for_each(|(&dof, y)| b[dof as usize] = *y);
+        for (k, b) in b.iter_mut().enumerate() {
+            for (part, y) in self.parts.iter().zip(&inner) {
+                let own = part.block.dofs.iter().take(part.inner).enumerate();
+                own.for_each(|(i, &dof)| b[dof as usize] = y[(i, k)]);
+            }
+            self.border.dofs.iter().enumerate().for_each(|(i, &dof)| b[dof as usize] = x[(i, k)]);
         }
-        border.dofs.iter().zip(&x).for_each(|(&dof, x)| b[dof as usize] = *x);
     }
 }
 
 impl PartsFactor<'_> {
-    /// Solves A x = b in place.
-    pub fn solve(&self, b: &mut [f64]) {
+    /// Solves A X = B in place, for several right-hand sides.
+    pub fn solve(&self, b: &mut [Vec<f64>]) {
         self.plan.solve(&self.values, b, |x| cholesky_solve(&self.border, x));
     }
 }

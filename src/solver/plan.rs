@@ -72,10 +72,10 @@ impl Plan {
 }
 
 impl Factor<'_> {
-    /// Solves A x = b in place.
-    pub fn solve(&self, b: &mut [f64]) {
+    /// Solves A X = B in place, for several right-hand sides.
+    pub fn solve(&self, b: &mut [Vec<f64>]) {
         match self {
-            Factor::Joined(factor) => factor.solve(b),
+            Factor::Joined(factor) => b.iter_mut().for_each(|b| factor.solve(b)),
             Factor::InParts(factor) => factor.solve(b),
         }
     }

@@ -18,6 +18,15 @@ pub struct Solution {
     pub backward_error: f64,
 }
 
+/// Where the refinement of one solution stands.
+struct Refined {
+    u: Vec<f64>,
+    residual: Vec<f64>,
+    /// The smallest backward error so far, with its solution and residual.
+    best: (f64, Vec<f64>, Vec<f64>),
+    done: bool,
+}
+
 /// A factored matrix with its supports.
 pub(super) trait Factored {
     /// True where a dof is prescribed.
@@ -26,37 +35,55 @@ pub(super) trait Factored {
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64>;
     /// scale += |A| |u|.
     fn add_scale(&self, u: &[f64], scale: &mut [f64]);
-    /// A⁻¹ b in place, where b is zero at held dofs.
-    fn apply(&self, b: &mut [f64]);
+    /// A⁻¹ b in place for several right-hand sides that are zero at held dofs.
+    fn apply(&self, b: &mut [Vec<f64>]);
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
     fn refined(&self, f: &[f64], prescribed: &[f64]) -> Solution {
+        let mut solutions = self.refined_all(&[(f, prescribed)]);
+        solutions.remove(0)
+    }
+
+    /// Solves for several pairs of forces and prescribed displacements, side by side in one sweep through the factors.
+    fn refined_all(&self, loads: &[(&[f64], &[f64])]) -> Vec<Solution> {
         let free = |i: usize| !self.held()[i];
-        let mut u: Vec<f64> = (0..f.len()).map(|i| if free(i) { 0.0 } else { prescribed[i] }).collect();
-        let mut residual = self.residual(f, &u);
-        let mut best: Option<(f64, Vec<f64>, Vec<f64>)> = None;
-        for pass in 0..=REFINEMENTS {
-            let mut correction: Vec<f64> =
-                (0..f.len()).map(|i| if free(i) { residual[i] } else { 0.0 }).collect();
-            if correction.iter().all(|&r| r == 0.0) && pass == 0 {
-                return Solution { reactions: self.reactions(&residual), u, backward_error: 0.0 };
-            }
-            self.apply(&mut correction);
-            for i in (0..f.len()).filter(|&i| free(i)) {
-                u[i] += correction[i];
-            }
-            residual = self.residual(f, &u);
-            let error = self.backward_error(f, &u, &residual);
-            let previous = best.as_ref().map_or(f64::INFINITY, |(error, ..)| *error);
-            if error < previous {
-                best = Some((error, u.clone(), residual.clone()));
-            }
-            if error <= BACKWARD_ERROR || error > GAIN * previous {
+        let start = |&(f, prescribed): &(&[f64], &[f64])| {
+            let u: Vec<f64> = (0..f.len()).map(|i| if free(i) { 0.0 } else { prescribed[i] }).collect();
+            let residual = self.residual(f, &u);
+            let done = (0..f.len()).all(|i| !free(i) || residual[i] == 0.0);
+            let error = if done { 0.0 } else { f64::INFINITY };
+            Refined { best: (error, u.clone(), residual.clone()), u, residual, done }
+        };
+        let mut all: Vec<Refined> = loads.iter().map(start).collect();
+        for _ in 0..=REFINEMENTS {
+            let open: Vec<usize> = (0..all.len()).filter(|&k| !all[k].done).collect();
+            let free_part = |&k: &usize| -> Vec<f64> {
+                let part = |(i, &r): (usize, &f64)| if free(i) { r } else { 0.0 };
+                all[k].residual.iter().enumerate().map(part).collect()
+            };
+            let mut corrections: Vec<Vec<f64>> = open.iter().map(free_part).collect();
+            if open.is_empty() {
                 break;
             }
+            self.apply(&mut corrections);
+            for (&k, correction) in open.iter().zip(&corrections) {
+                let now = &mut all[k];
+                (0..correction.len()).filter(|&i| free(i)).for_each(|i| now.u[i] += correction[i]);
+                now.residual = self.residual(loads[k].0, &now.u);
+                let error = self.backward_error(loads[k].0, &now.u, &now.residual);
+                let previous = now.best.0;
+                if error < previous {
+                    now.best = (error, now.u.clone(), now.residual.clone());
+                }
+                now.done = error <= BACKWARD_ERROR || error > GAIN * previous;
+            }
         }
-        let (backward_error, u, residual) = best.unwrap_or((f64::INFINITY, u, residual));
-        Solution { reactions: self.reactions(&residual), u, backward_error }
+        let solution = |Refined { best: (backward_error, u, residual), .. }| Solution {
+            reactions: self.reactions(&residual),
+            u,
+            backward_error,
+        };
+        all.into_iter().map(solution).collect()
     }
 
     /// The residual with its sign changed at the supports.
