@@ -169,20 +169,25 @@ fn conflicting_supports_are_refused() {
     assert!(message.contains("steps.0.displace.lower.left") && message.contains("lower.bottom"), "{message}");
 }
 
-/// ε K_N h/E: warned of from 1e-6, refused from 1e-3 with the largest stiffness that makes sense (h = 1/3, E = 1e4).
+/// ε K_N h/E with `pointwise`: warned of from 1e-6, refused from 1e-3 with the largest stiffness that makes sense (h = 1/3,
+/// E = 1e4). With `projected` the jumps are unknowns, and only what cannot be represented is refused.
 #[test]
 fn stiffness_beyond_double_precision_is_refused() {
-    let go = |kn: f64| {
+    let go = |coupling: &str, kn: f64| {
         let law = format!(
-            r#""law": {{ "type": "elastic", "normal_stiffness": {kn:e}, "tangential_stiffness": 1e5 }}"#
+            r#""coupling": "{coupling}",
+               "law": {{ "type": "elastic", "normal_stiffness": {kn:e}, "tangential_stiffness": 1e5 }}"#
         );
         two_squares(HEAD, &law, &format!(r#"{{ "name": "go", {HELD} }}"#), "")
     };
-    assert!(go(1e12).unwrap().warnings.is_empty());
-    assert!(go(1e15).unwrap().warnings[0].contains("K_N h/E = 3.3e10"));
-    let message = go(1e18).unwrap_err().to_string();
+    assert!(go("pointwise", 1e12).unwrap().warnings.iter().all(|warning| !warning.contains("rounding")));
+    assert!(go("pointwise", 1e15).unwrap().warnings[0].contains("K_N h/E = 3.3e10"));
+    let message = go("pointwise", 1e18).unwrap_err().to_string();
     assert!(message.contains("interfaces.joint.law.normal_stiffness: K_N h/E = 3.3e13"), "{message}");
     assert!(message.contains("take 1e14 or less"), "{message}");
+    assert!(go("projected", 1e24).unwrap().warnings.is_empty());
+    let message = go("projected", 1e110).unwrap_err().to_string();
+    assert!(message.contains("K_N h/E = 3.3e105 is beyond double precision"), "{message}");
 }
 
 /// Loads that overflow end as no equilibrium, never as numbers that are none.

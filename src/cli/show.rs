@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
 use crate::output::Row;
-use crate::run::{Done, Event, Totals, memory::gigabytes};
+use crate::run::{Done, Estimate, Event, Totals, memory::gigabytes};
 
 /// Prints events.
 pub(super) struct Show {
@@ -86,6 +86,10 @@ impl Show {
             other => other,
         };
         self.line(&format!("{:<8} {:<12} {how}", "solving", totals.strategy));
+        if let Some(Estimate { condensed, plain }) = totals.estimate {
+            let text = format!("condensed {condensed:.1e}, plain {plain:.1e} or more");
+            self.line(&format!("{:<8} {:<12} {text}", "", "operations"));
+        }
         self.line(&format!(
             "{:<20} {:>9} {:>8} {:>6} {:>10} {:>10}",
             "step", "incr", "load", "iter", "residual", "energy"

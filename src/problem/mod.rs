@@ -57,6 +57,8 @@ pub struct Problem {
     pub probes: Vec<(String, BoundProbe)>,
     /// Groups that hold something, for their reactions.
     pub reactions: Vec<Reaction>,
+    /// True for the elastic joints that are too stiff for differences of displacements.
+    pub stiff: Vec<bool>,
     /// What the user should know before believing the result.
     pub warnings: Vec<String>,
 }
@@ -72,12 +74,14 @@ impl Problem {
         };
         let mut warnings = Vec::new();
         let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
+        let mut stiff = Vec::new();
         let plans = plan::plans(scene, &model)?;
         for plan in &plans {
             let joint = plan.join(&model)?;
             let interface = plan.interface;
             stiffness::refuse_beyond_precision(scene, &model, &joint, plan)?;
-            warnings.extend(warnings::of_joint(&model, &joint, plan));
+            warnings.extend(warnings::of_joint(scene, &model, &joint, plan));
+            stiff.push(stiffness::is_stiff(scene, interface, &model, &joint));
             let gaps = Gaps::new(interface.initial_gap, &joint);
             let initial = InitialTraction::bind(scene, plan.entry, interface, &joint)?;
             states.push(initial::states(scene, plan.entry, &interface.law, &initial, &gaps, &joint)?);
@@ -92,7 +96,19 @@ impl Problem {
         }
         let probes = probes::bind(scene, &model)?;
         let (solution, fields) = (scene.solution, scene.output.fields);
-        Ok(Problem { model, laws, states, stepping, solution, fields, stages, probes, reactions, warnings })
+        Ok(Problem {
+            model,
+            laws,
+            states,
+            stepping,
+            solution,
+            fields,
+            stages,
+            probes,
+            reactions,
+            stiff,
+            warnings,
+        })
     }
 }
 

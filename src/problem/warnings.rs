@@ -1,9 +1,9 @@
 //! What the user should know of a joint before believing the result.
 
 use super::plan::Plan;
-use super::stiffness::{ROUNDING_SEEN, stiffness_number};
+use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
 use crate::assembly::{Joint, Model};
-use crate::scene::CouplingKind;
+use crate::scene::{CouplingKind, Scene};
 
 /// A gap below this is rounding. Of the length of the joint.
 const GAP_SEEN: f64 = 1e-9;
@@ -13,14 +13,14 @@ const RESOLVED: f64 = 1e-10;
 const BAD: f64 = 0.3;
 
 /// The warnings of one joint.
-pub(super) fn of_joint(model: &Model, joint: &Joint, plan: &Plan) -> Vec<String> {
+pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan) -> Vec<String> {
     let mut warnings = Vec::new();
     let (name, law) = (&joint.name, &plan.interface.law);
     let coupling = &joint.coupling;
     let segments = coupling.midplane.segments.len();
     let matched = (0..2).all(|side| coupling.edges(side) == segments);
     let number = stiffness_number(model, joint, law);
-    if number * f64::EPSILON > ROUNDING_SEEN {
+    if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.interface) {
         warnings.push(format!(
             "interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions; less stiff springs say as much"
         ));

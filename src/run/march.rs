@@ -3,17 +3,14 @@
 
 use super::course::Course;
 use super::engine::LinearEngine;
-use super::newton::{NewtonEngine, active};
+use super::newton::NewtonEngine;
 use super::state::State;
+use super::strategy::{self, Estimate, asked};
 use super::{Clock, memory};
 use crate::error::Result;
-use crate::law::Law;
 use crate::problem::{Problem, Stage};
-use crate::scene::{Solution, Strategy, Tangent};
+use crate::scene::{Solution, Tangent};
 use crate::solver::{Continuum, Plan, Settings, System, TooLarge};
-
-/// Condensation is for joints of at most this many dofs: its dense matrices have their square.
-const DENSE: usize = 12_000;
 
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
@@ -28,6 +25,8 @@ pub struct Totals {
     pub halved: usize,
     /// How the equations are solved.
     pub strategy: &'static str,
+    /// The work of both forms, where there is a choice.
+    pub estimate: Option<Estimate>,
     /// Entries of one factor.
     pub factor_entries: usize,
     /// Largest residual of all increments.
@@ -87,9 +86,10 @@ pub fn march_within(
     begin(clock, "assemble");
     let model = &problem.model;
     let dofs = model.dofs();
-    let stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k)).collect();
+    let asked = asked(problem);
+    let stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
     let mut totals = Totals::default();
-    if active(problem).is_empty() {
+    if asked.is_empty() {
         let (pattern, joints) = (&model.pattern(), &model.joints);
         let continuum = &model.continuum(pattern);
         let system = System { joints, stiffness: &stiffness, pattern, continuum };
@@ -98,28 +98,22 @@ pub fn march_within(
             Plan::analyse(pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(dofs))?;
         memory::refuse(dofs, plan.entries(), memory::needed(plan.bytes(), pattern), available)?;
         (totals.strategy, totals.factor_entries) = (plan.strategy(), plan.entries());
-        Course::new(problem, &mut LinearEngine::new(&system, &plan), totals, clock, &mut begin, visit).march()
+        let mut engine = LinearEngine::new(&system, &plan);
+        return Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march();
+    }
+    let continuum = &Continuum::new(model).map_err(|TooLarge| memory::too_large(dofs))?;
+    let settings = settings(&problem.solution);
+    let (condensed, estimate) = strategy::condensed(problem, continuum, &asked, available)?;
+    totals.factor_entries = continuum.parts.entries();
+    totals.estimate = Some(estimate);
+    if condensed {
+        totals.strategy = "condensed";
+        let mut engine = NewtonEngine::condensed(problem, continuum, &asked, &stiffness, settings);
+        Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
     } else {
-        let continuum = &Continuum::new(model).map_err(|TooLarge| memory::too_large(dofs))?;
-        let (parts, settings) = (&continuum.parts, settings(&problem.solution));
-        let condensed = match problem.solution.strategy {
-            Strategy::Auto => parts.border() <= DENSE,
-            strategy => strategy == Strategy::Condensed,
-        };
-        let coefficients: usize = active(problem).iter().map(|&k| model.joints[k].size()).sum();
-        let dense = if condensed { parts.border().pow(2) + 4 * coefficients.pow(2) } else { 0 };
-        let bytes = parts.bytes() + size_of::<f64>() * dense;
-        memory::refuse(dofs, parts.entries(), memory::needed(bytes, &continuum.pattern), available)?;
-        totals.factor_entries = parts.entries();
-        if condensed {
-            totals.strategy = "condensed";
-            let mut engine = NewtonEngine::condensed(problem, continuum, &stiffness, settings);
-            Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
-        } else {
-            totals.strategy = "plain";
-            let mut engine = NewtonEngine::plain(problem, continuum, &stiffness, settings);
-            Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
-        }
+        totals.strategy = "plain";
+        let mut engine = NewtonEngine::plain(problem, continuum, &asked, &stiffness, settings);
+        Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
     }
 }
 
@@ -128,17 +122,15 @@ fn settings(solution: &Solution) -> Settings {
     Settings { tolerance, iterations, initial_tangent: tangent == Tangent::Initial }
 }
 
-/// Law stiffness of a joint's springs: its own if it is elastic. Else at most E/h, which keeps floating bodies in place:
-/// E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
-fn springs(problem: &Problem, k: usize) -> Vec<f64> {
+/// Law stiffness of a joint's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
+/// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
+fn springs(problem: &Problem, k: usize, asked: &[usize]) -> Vec<f64> {
     let (joint, (law, _)) = (&problem.model.joints[k], &problem.laws[k]);
     let midplane = &joint.coupling.midplane;
     let edges = midplane.a.edges().min(midplane.b.edges());
     let young = joint.bodies.map(|body| problem.model.bodies[body].elasticity.young);
     let soft = young[0].min(young[1]) * edges as f64 / midplane.length;
-    let [kn, kt] = match law {
-        Law::Elastic(_) => law.elastic_stiffness(),
-        _ => law.elastic_stiffness().map(|stiffness| stiffness.min(soft)),
-    };
+    let most = if asked.contains(&k) { soft } else { f64::INFINITY };
+    let [kn, kt] = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
     [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
 }

@@ -15,12 +15,14 @@ mod path;
 pub mod point;
 mod prepare;
 mod state;
+mod strategy;
 mod summary;
 
 pub use clock::Clock;
 pub use march::{Place, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
 pub use state::State;
+pub use strategy::Estimate;
 
 use std::path::PathBuf;
 use std::time::Duration;

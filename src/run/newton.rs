@@ -7,6 +7,7 @@ use nalgebra::Vector2;
 use super::engine::{Engine, Failure, Path};
 use super::loading::{Ledger, Load};
 use super::state::{Answer, Found, JointAnswer, State};
+use super::strategy::active;
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
@@ -23,6 +24,8 @@ type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefini
 /// Newton's method on a form of the equilibrium that is made anew for every set of supports.
 pub(super) struct NewtonEngine<'a, F> {
     problem: &'a Problem,
+    /// All joints are elastic.
+    linear: bool,
     settings: Settings,
     make: Make<'a, F>,
     form: Option<(Vec<bool>, F, Newton)>,
@@ -43,8 +46,10 @@ impl<'a, F> NewtonEngine<'a, F> {
     fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
         let (before, unknowns, found) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
         let (prepared, measured, trusted, first) = (false, false, false, true);
+        let linear = active(problem).is_empty();
         NewtonEngine {
             problem,
+            linear,
             settings,
             make,
             form: None,
@@ -61,15 +66,15 @@ impl<'a, F> NewtonEngine<'a, F> {
 }
 
 impl<'a> NewtonEngine<'a, Dual<'a>> {
-    /// On the jump coefficients of the joints that are not elastic.
+    /// On the jump coefficients of the joints in `asked`.
     pub(super) fn condensed(
         problem: &'a Problem,
         continuum: &'a Continuum,
+        asked: &'a [usize],
         stiffness: &'a [Vec<f64>],
         settings: Settings,
     ) -> Self {
-        let active = active(problem);
-        let size: usize = active.iter().map(|&k| problem.model.joints[k].size()).sum();
+        let size: usize = asked.iter().map(|&k| problem.model.joints[k].size()).sum();
         let sound: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.joints))
             .map(|((law, _), joint)| {
                 let [kn, kt] = law.elastic_stiffness();
@@ -86,7 +91,7 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
             };
             condensed = Some(condensation.clone());
             let base = Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?;
-            Ok((Dual::new(base, &active, stiffness, &sound), anew))
+            Ok((Dual::new(base, asked, stiffness, &sound), anew))
         };
         NewtonEngine::new(problem, settings, Box::new(make), size)
     }
@@ -97,13 +102,13 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
     pub(super) fn plain(
         problem: &'a Problem,
         continuum: &'a Continuum,
+        asked: &'a [usize],
         stiffness: &'a [Vec<f64>],
         settings: Settings,
     ) -> Self {
-        let active = active(problem);
         let make = move |held: &[bool]| {
             let Continuum { pattern, stiffness: k, .. } = continuum;
-            Ok((Plain::new(&problem.model.joints, &active, stiffness, pattern, k, held), true))
+            Ok((Plain::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
         };
         NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())
     }
@@ -124,7 +129,10 @@ impl<F: Form> NewtonEngine<'_, F> {
             let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
             JointAnswer { joint, jumps, memory }
         });
-        Found { solution, ledger, joints: joints.collect(), iterations: residuals.len() - 1, residuals }
+        // one solve is all that a linear scene takes
+        let solves = residuals.len() - 1;
+        let iterations = if self.linear { solves - 1 } else { solves };
+        Found { solution, ledger, joints: joints.collect(), iterations, residuals }
     }
 }
 
@@ -228,12 +236,6 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 }
 
-/// Joints that are not elastic.
-pub(super) fn active(problem: &Problem) -> Vec<usize> {
-    let laws = problem.laws.iter().enumerate();
-    laws.filter(|(_, (law, _))| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
-}
-
 /// The laws with the states at the last accepted increment.
 struct Laws<'a> {
     problem: &'a Problem,
@@ -252,6 +254,12 @@ impl Respond for Laws<'_> {
         stiffness: &mut [f64],
     ) -> Result<Answer, String> {
         let (law, _) = &self.problem.laws[joint];
+        if let Law::Elastic(_) = law {
+            let [kn, kt] = law.elastic_stiffness();
+            traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
+            stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
+            return Ok(Answer::default());
+        }
         let stepping = self.problem.stepping[joint];
         let answer = law
             .respond(Vector2::new(jump[0], jump[1]), &self.old[joint][point], stepping)

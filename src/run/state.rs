@@ -44,9 +44,11 @@ pub struct State {
     largest: f64,
     /// What the step knows without displacements; none outside such a step.
     ledger: Option<Ledger>,
+    /// Joints whose jumps were found as unknowns, not taken from displacements.
+    found: Vec<bool>,
 }
 
-/// A joint that is not elastic, after an increment that converged.
+/// A joint whose jumps are unknowns, after an increment that converged.
 #[derive(Debug, Clone)]
 pub(super) struct JointAnswer {
     /// Its number.
@@ -58,7 +60,7 @@ pub(super) struct JointAnswer {
 }
 
 /// What a law point remembers of an answer.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Answer {
     pub(super) state: law::State,
     /// Energy dissipated in the increment per area, and its derivative by the jump.
@@ -73,7 +75,7 @@ pub(super) struct Found {
     pub(super) solution: Option<Solution>,
     /// What stands for them otherwise.
     pub(super) ledger: Option<Ledger>,
-    /// Joints that are not elastic.
+    /// Joints whose jumps are unknowns.
     pub(super) joints: Vec<JointAnswer>,
     pub(super) iterations: usize,
     pub(super) residuals: Vec<f64>,
@@ -104,6 +106,7 @@ impl State {
             work,
             largest,
             ledger: None,
+            found: vec![false; problem.laws.len()],
         };
         state.recover(problem);
         state
@@ -182,6 +185,7 @@ impl State {
                 *old = new;
             }
             self.snapshot.jumps[joint] = jumps;
+            self.found[joint] = true;
         }
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
@@ -226,14 +230,16 @@ impl State {
             let area = |p: usize| model.thickness * joint.coupling.points[p].weight;
             if let Law::Elastic(_) = law {
                 let d = law.elastic_stiffness();
-                let jumps: Vec<[f64; 2]> = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                if !self.found[k] {
+                    self.snapshot.jumps[k] = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                }
+                let jumps = &self.snapshot.jumps[k];
                 let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
                 self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
                 for (p, r) in jumps.iter().enumerate() {
                     let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial.at(p)[i]) * r[i]).sum();
                     self.stored += area(p) * energy;
                 }
-                self.snapshot.jumps[k] = jumps;
             } else {
                 let states = &self.snapshot.states[k];
                 for (p, (state, start)) in states.iter().zip(&problem.states[k]).enumerate() {

@@ -65,12 +65,20 @@ struct Solution {
     turns: Vec<(usize, String, f64)>,
     /// "joined", "in parts", "condensed" or "plain".
     strategy: &'static str,
+    /// Multiplications and additions of both forms, estimated; none where there is no choice.
+    operations: Option<Operations>,
     factor_entries: usize,
-    /// Largest residual of all increments: the componentwise backward error max |r| / (|A| |u| + |f|) of a linear scene,
-    /// the out-of-balance force relative to the forces in the model of any other.
+    /// Largest residual of all increments: the componentwise backward error max |r| / (|A| |u| + |f|) of a linear scene that
+    /// is solved for displacements, the out-of-balance force relative to the forces in the model of any other.
     residual: f64,
     /// Largest |work − stored − dissipated| over the largest of them.
     energy_balance: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Operations {
+    condensed: f64,
+    plain: f64,
 }
 
 /// Applied loads against reactions at the last increment.
@@ -157,6 +165,7 @@ pub(super) fn summary<'a>(
             turns: totals.turns.clone(),
             factorisations: totals.factorisations,
             strategy: totals.strategy,
+            operations: totals.estimate.map(|e| Operations { condensed: e.condensed, plain: e.plain }),
             factor_entries: totals.factor_entries,
             residual: totals.residual,
             energy_balance: totals.energy_balance,

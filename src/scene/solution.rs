@@ -21,7 +21,7 @@ pub struct Solution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Strategy {
-    /// `condensed` unless its dense matrices would be too large.
+    /// What is estimated to take less work. A linear scene is solved for its displacements, its stiff joints for their jumps.
     #[default]
     Auto,
     /// The jump coefficients: the bodies are factored once, an iteration touches the joints only.

@@ -136,13 +136,17 @@ impl Factored for Base<'_> {
         f.iter().zip(force).map(|(f, force)| f - force).collect()
     }
 
-    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
+    fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
         self.continuum.stiffness.add_absolute_product_by_differences(&self.continuum.pattern, u, scale);
         for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
             let mut force = vec![0.0; u.len()];
             joint.add_force(&tractions(joint, stiffness, u), &mut force);
             scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
         }
+    }
+
+    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
+        self.add_moved(u, scale);
     }
 
     fn apply(&self, b: &mut [Vec<f64>]) {

@@ -68,6 +68,15 @@ impl Factored for Linear<'_> {
         f.iter().zip(force).map(|(f, force)| f - force).collect()
     }
 
+    fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
+        self.system.continuum.add_absolute_product_by_differences(self.system.pattern, u, scale);
+        for (joint, stiffness) in self.system.joints.iter().zip(self.system.stiffness) {
+            let mut force = vec![0.0; u.len()];
+            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+            scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
+        }
+    }
+
     fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
         self.total.add_absolute_product(self.system.pattern, u, scale);
     }

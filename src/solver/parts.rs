@@ -94,6 +94,11 @@ impl Parts {
         self.parts.iter().map(|part| part.plan.entries()).sum::<usize>() + m * m
     }
 
+    /// Multiplications and additions to eliminate the parts.
+    pub fn operations(&self) -> f64 {
+        self.parts.iter().map(|part| part.plan.operations()).sum()
+    }
+
     /// Memory of the factors and of the work on them [bytes].
     pub fn bytes(&self) -> usize {
         let dense = |m: usize| size_of::<f64>() * m * m;

@@ -22,8 +22,8 @@ pub struct Solution {
 struct Refined {
     u: Vec<f64>,
     residual: Vec<f64>,
-    /// The smallest backward error so far, with its solution and residual.
-    best: (f64, Vec<f64>, Vec<f64>),
+    /// The smallest backward errors so far, with their solution and residual.
+    best: ([f64; 2], Vec<f64>, Vec<f64>),
     done: bool,
 }
 
@@ -33,8 +33,10 @@ pub(super) trait Factored {
     fn held(&self) -> &[bool];
     /// f − A u.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64>;
-    /// scale += |A| |u|.
+    /// scale += |A| |u|: what an answer is measured by.
     fn add_scale(&self, u: &[f64], scale: &mut [f64]);
+    /// The same by differences of u, which is less where bodies move as a whole: refinement goes on until both are small.
+    fn add_moved(&self, u: &[f64], scale: &mut [f64]);
     /// A⁻¹ b in place for several right-hand sides that are zero at held dofs.
     fn apply(&self, b: &mut [Vec<f64>]);
 
@@ -51,8 +53,8 @@ pub(super) trait Factored {
             let u: Vec<f64> = (0..f.len()).map(|i| if free(i) { 0.0 } else { prescribed[i] }).collect();
             let residual = self.residual(f, &u);
             let done = (0..f.len()).all(|i| !free(i) || residual[i] == 0.0);
-            let error = if done { 0.0 } else { f64::INFINITY };
-            Refined { best: (error, u.clone(), residual.clone()), u, residual, done }
+            let errors = [if done { 0.0 } else { f64::INFINITY }; 2];
+            Refined { best: (errors, u.clone(), residual.clone()), u, residual, done }
         };
         let mut all: Vec<Refined> = loads.iter().map(start).collect();
         for _ in 0..=REFINEMENTS {
@@ -70,15 +72,16 @@ pub(super) trait Factored {
                 let now = &mut all[k];
                 (0..correction.len()).filter(|&i| free(i)).for_each(|i| now.u[i] += correction[i]);
                 now.residual = self.residual(loads[k].0, &now.u);
-                let error = self.backward_error(loads[k].0, &now.u, &now.residual);
-                let previous = now.best.0;
-                if error < previous {
-                    now.best = (error, now.u.clone(), now.residual.clone());
+                let errors = self.errors(loads[k].0, &now.u, &now.residual);
+                let before = now.best.0;
+                let better = |part: f64| (0..2).any(|m| errors[m] < part * before[m]);
+                now.done = errors.iter().all(|error| *error <= BACKWARD_ERROR) || !better(GAIN);
+                if better(GAIN) || (0..2).all(|m| errors[m] <= before[m]) {
+                    now.best = (errors, now.u.clone(), now.residual.clone());
                 }
-                now.done = error <= BACKWARD_ERROR || error > GAIN * previous;
             }
         }
-        let solution = |Refined { best: (backward_error, u, residual), .. }| Solution {
+        let solution = |Refined { best: ([backward_error, _], u, residual), .. }| Solution {
             reactions: self.reactions(&residual),
             u,
             backward_error,
@@ -91,14 +94,18 @@ pub(super) trait Factored {
         residual.iter().zip(self.held()).map(|(r, &held)| if held { -r } else { 0.0 }).collect()
     }
 
-    /// max |r| / (|A| |u| + |f|) over the free dofs.
-    fn backward_error(&self, f: &[f64], u: &[f64], residual: &[f64]) -> f64 {
-        let mut scale: Vec<f64> = f.iter().map(|f| f.abs()).collect();
-        self.add_scale(u, &mut scale);
-        if !scale.iter().all(|scale| scale.is_finite()) {
-            return f64::INFINITY; // overflow: a maximum would pass over what is not a number
-        }
-        let free = (0..f.len()).filter(|&i| !self.held()[i] && scale[i] > 0.0);
-        free.map(|i| residual[i].abs() / scale[i]).fold(0.0, f64::max)
+    /// max |r| / (|A| |u| + |f|) over the free dofs; and the same with |A| |u| by differences.
+    fn errors(&self, f: &[f64], u: &[f64], residual: &[f64]) -> [f64; 2] {
+        let size: Vec<f64> = f.iter().map(|f| f.abs()).collect();
+        let mut scales = [size.clone(), size];
+        self.add_scale(u, &mut scales[0]);
+        self.add_moved(u, &mut scales[1]);
+        scales.map(|scale| {
+            if !scale.iter().all(|scale| scale.is_finite()) {
+                return f64::INFINITY; // overflow: a maximum would pass over what is not a number
+            }
+            let free = (0..f.len()).filter(|&i| !self.held()[i] && scale[i] > 0.0);
+            free.map(|i| residual[i].abs() / scale[i]).fold(0.0, f64::max)
+        })
     }
 }
