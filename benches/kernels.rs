@@ -48,7 +48,7 @@ fn condense(continuum: &Continuum, held: &[bool]) -> Condensation {
 }
 
 fn continuum(problem: &Problem) -> Continuum {
-    Continuum::new(&problem.model).unwrap_or_else(|error| unreachable!("{error:?}"))
+    Continuum::new(&problem.model, None).unwrap_or_else(|error| unreachable!("{error:?}"))
 }
 
 #[divan::bench(args = SIZES, sample_count = 10)]

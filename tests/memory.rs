@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use midplane::run::{Clock, march_within, memory};
+use midplane::run::{Clock, Means, march_within, memory};
 use midplane::shape::Shape;
 
 const SCENE: &str = r#"{ "plane": "strain",
@@ -20,10 +20,16 @@ fn a_run_that_does_not_fit_is_refused_with_dofs_estimate_and_what_there_is() {
     let run = |available| {
         let mut increments = 0;
         let mut clock = Clock::new("test");
-        let result = march_within(available, &problem, &mut clock, &mut |_| (), &mut |_, _, _, _| {
-            increments += 1;
-            Ok(())
-        });
+        let result = march_within(
+            Means { memory: available, shelf: None },
+            &problem,
+            &mut clock,
+            &mut |_| (),
+            &mut |_, _, _, _| {
+                increments += 1;
+                Ok(())
+            },
+        );
         (result, increments)
     };
     let (refused, visited) = run(Some(1_000_000));

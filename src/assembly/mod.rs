@@ -71,22 +71,19 @@ impl Model {
 
     /// The pattern of the bodies alone: a block for each.
     pub fn continuum_pattern(&self) -> Pattern {
-        let cells = self.bodies.iter().flat_map(|body| {
-            let cells = &body.mesh.cells;
-            (0..cells.len()).map(move |c| (body.first_node, cells.nodes(c)))
-        });
-        Pattern::new(self.components, self.nodes(), || cells.clone())
+        Pattern::new(self.components, self.nodes(), || self.cells())
+    }
+
+    /// First node and nodes of every cell.
+    fn cells(&self) -> impl Iterator<Item = (usize, &[usize])> + Clone {
+        self.bodies.iter().flat_map(|body| body.cells(body.first_node))
     }
 
     /// The pattern that continuum and joints fill together.
     pub fn pattern(&self) -> Pattern {
-        let cells = self.bodies.iter().flat_map(|body| {
-            let cells = &body.mesh.cells;
-            (0..cells.len()).map(move |c| (body.first_node, cells.nodes(c)))
-        });
         let joints: Vec<Vec<usize>> = self.joints.iter().flat_map(Joint::cliques).collect();
         let cliques = joints.iter().map(|nodes| (0, nodes.as_slice()));
-        Pattern::new(self.components, self.nodes(), || cells.clone().chain(cliques.clone()))
+        Pattern::new(self.components, self.nodes(), || self.cells().chain(cliques.clone()))
     }
 
     /// K of the continuum on a pattern.
@@ -102,22 +99,53 @@ impl Model {
             (rest, start) = (behind, end);
         }
         parts.into_par_iter().for_each(|(body, start, values)| {
-            for c in 0..body.mesh.cells.len() {
-                let nodes = body.mesh.cells.nodes(c);
-                let x = cell_coordinates(&body.mesh, c);
-                let k = element_stiffness(body.mesh.cells.shapes[c], &x, &body.elasticity, self.thickness);
-                for (j, &node_j) in nodes.iter().enumerate() {
-                    for (i, &node_i) in nodes.iter().enumerate().filter(|(_, node_i)| **node_i >= node_j) {
-                        let at = pattern.block(body.first_node + node_i, body.first_node + node_j);
-                        for (b, column) in at.into_iter().enumerate() {
-                            for a in if i == j { b } else { 0 }..2 {
-                                values[column - start + a] += k[2 * i + a][2 * j + b];
-                            }
+            body.add_stiffness(pattern, body.first_node, self.thickness, start, values);
+        });
+        stiffness
+    }
+}
+
+impl Body {
+    /// First node and nodes of every cell.
+    fn cells(&self, first_node: usize) -> impl Iterator<Item = (usize, &[usize])> + Clone {
+        (0..self.mesh.cells.len()).map(move |c| (first_node, self.mesh.cells.nodes(c)))
+    }
+
+    /// The pattern of this body alone, its nodes numbered from 0.
+    pub fn pattern(&self, components: usize) -> Pattern {
+        Pattern::new(components, self.mesh.points.len(), || self.cells(0))
+    }
+
+    /// K of this body on its own pattern.
+    pub fn stiffness(&self, pattern: &Pattern, thickness: f64) -> Symmetric {
+        let mut stiffness = Symmetric::zero(pattern);
+        self.add_stiffness(pattern, 0, thickness, 0, &mut stiffness.values);
+        stiffness
+    }
+
+    /// Adds K where the pattern has the body's first node at `first`; `values` are those of the pattern from `start` on.
+    fn add_stiffness(
+        &self,
+        pattern: &Pattern,
+        first: usize,
+        thickness: f64,
+        start: usize,
+        values: &mut [f64],
+    ) {
+        for c in 0..self.mesh.cells.len() {
+            let nodes = self.mesh.cells.nodes(c);
+            let x = cell_coordinates(&self.mesh, c);
+            let k = element_stiffness(self.mesh.cells.shapes[c], &x, &self.elasticity, thickness);
+            for (j, &node_j) in nodes.iter().enumerate() {
+                for (i, &node_i) in nodes.iter().enumerate().filter(|(_, node_i)| **node_i >= node_j) {
+                    let at = pattern.block(first + node_i, first + node_j);
+                    for (b, column) in at.into_iter().enumerate() {
+                        for a in if i == j { b } else { 0 }..2 {
+                            values[column - start + a] += k[2 * i + a][2 * j + b];
                         }
                     }
                 }
             }
-        });
-        stiffness
+        }
     }
 }

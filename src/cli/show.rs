@@ -62,7 +62,8 @@ impl Show {
             }
             Event::Joint(joint) => self.line(&describe(joint)),
             Event::Warning(text) => self.warning(text),
-            Event::Increment { row, number, of, total, totals } => {
+            Event::Reused(what) => self.line(&format!("reused   {what}")),
+            Event::Increment { row, number, of, total, totals, .. } => {
                 if self.totals.is_none() {
                     self.begin(total, totals);
                 }

@@ -29,7 +29,7 @@ pub use stiffness::stiffness_number;
 pub use survey::Survey;
 pub use unused::unused_groups;
 
-use crate::assembly::{Body, Model};
+use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
 use crate::error::Result;
 use crate::law::{self, Law, Stepping};
@@ -66,6 +66,11 @@ pub struct Problem {
 impl Problem {
     /// Binds a scene to the meshes of its subdomains, in their order.
     pub fn bind(scene: &Scene, meshes: Vec<Mesh>) -> Result<Problem> {
+        Problem::bind_joined(scene, meshes, &[])
+    }
+
+    /// The same where the joints are known from a scene that differs in laws, materials, loads or output only.
+    pub fn bind_joined(scene: &Scene, meshes: Vec<Mesh>, joints: &[Joint]) -> Result<Problem> {
         let mut model = Model {
             components: 2,
             thickness: scene.thickness,
@@ -76,8 +81,8 @@ impl Problem {
         let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
         let mut stiff = Vec::new();
         let plans = plan::plans(scene, &model)?;
-        for plan in &plans {
-            let joint = plan.join(&model)?;
+        for (k, plan) in plans.iter().enumerate() {
+            let joint = joints.get(k).map_or_else(|| plan.join(&model), |joint| Ok(joint.clone()))?;
             let interface = plan.interface;
             stiffness::refuse_beyond_precision(scene, &model, &joint, plan)?;
             warnings.extend(warnings::of_joint(scene, &model, &joint, plan));

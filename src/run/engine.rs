@@ -1,8 +1,14 @@
 //! What finds the equilibrium of one increment: a linear scene with one solve, any other with Newton's method.
 
+use std::sync::Arc;
+
 use super::loading::Load;
 use super::state::{Found, State};
-use crate::solver::{Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution, System, Unconverged};
+use crate::problem::Problem;
+use crate::solver::{
+    Base, Condensation, Continuum, Factored, Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution,
+    System, Unconverged,
+};
 
 /// Why an increment has no equilibrium.
 #[derive(Debug)]
@@ -49,37 +55,72 @@ pub(super) trait Engine {
     fn accept(&mut self);
 }
 
+/// Factors for a set of supports; true if something was factored anew.
+pub(super) type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
+
 /// One factorisation per set of supports, one solve per increment, no iteration.
-pub(super) struct LinearEngine<'a> {
-    system: &'a System<'a>,
-    plan: &'a Plan,
-    factored: Option<(Vec<bool>, Linear<'a>)>,
+pub(super) struct LinearEngine<'a, F> {
+    make: Make<'a, F>,
+    factored: Option<(Vec<bool>, F)>,
 }
 
 /// A solution with a larger backward error is not kept.
 const UNUSABLE: f64 = 1e-6;
 
-impl<'a> LinearEngine<'a> {
-    pub(super) fn new(system: &'a System<'a>, plan: &'a Plan) -> LinearEngine<'a> {
-        LinearEngine { system, plan, factored: None }
+impl<'a> LinearEngine<'a, Linear<'a>> {
+    /// With one factor of the whole.
+    pub(super) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
+        let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
+        LinearEngine { make: Box::new(make), factored: None }
     }
 }
 
-impl Engine for LinearEngine<'_> {
+impl<'a> LinearEngine<'a, Base<'a>> {
+    /// With the bodies condensed on their joints.
+    pub(super) fn condensed(
+        problem: &'a Problem,
+        continuum: &'a Continuum,
+        stiffness: &'a [Vec<f64>],
+    ) -> Self {
+        LinearEngine { make: bases(problem, continuum, stiffness), factored: None }
+    }
+}
+
+/// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
+pub(super) fn bases<'a>(
+    problem: &'a Problem,
+    continuum: &'a Continuum,
+    stiffness: &'a [Vec<f64>],
+) -> Make<'a, Base<'a>> {
+    let mut condensed: Option<Arc<Condensation>> = None;
+    Box::new(move |held: &[bool]| {
+        let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
+        let anew = reused.is_none();
+        let condensation = match reused {
+            Some(condensation) => condensation,
+            None => Arc::new(continuum.condense(held)?),
+        };
+        condensed = Some(condensation.clone());
+        Ok((Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?, anew))
+    })
+}
+
+impl<F: Factored> Engine for LinearEngine<'_, F> {
     fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
         if self.factored.as_ref().is_some_and(|(of, _)| of == held) {
             return Ok(false);
         }
         self.factored = None; // two factors at a time would not fit
-        self.factored = Some((held.to_vec(), Linear::new(self.system, self.plan, held)?));
-        Ok(true)
+        let (factored, anew) = (self.make)(held)?;
+        self.factored = Some((held.to_vec(), factored));
+        Ok(anew)
     }
 
     fn prepare(&mut self, _: Option<&Ramp>, _: &[Measure]) {}
 
     fn solve(&mut self, _: &State, load: &Load, _: f64, _: bool) -> Result<Found, Failure> {
-        let Some((_, linear)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let solution = linear.solve(&load.loaded, &load.prescribed);
+        let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let solution = factored.refined(&load.loaded, &load.prescribed);
         if solution.backward_error > UNUSABLE {
             return Err(Failure::Unusable(solution.backward_error));
         }

@@ -1,16 +1,18 @@
 //! The march through the load history. A linear scene takes one factorisation per set of supports and one solve per
 //! increment; any other iterates, and divides an increment that finds no equilibrium.
 
+use std::sync::Arc;
+
 use super::course::Course;
-use super::engine::LinearEngine;
+use super::engine::{Engine, LinearEngine};
 use super::newton::NewtonEngine;
 use super::state::State;
 use super::strategy::{self, Estimate, asked};
 use super::{Clock, memory};
 use crate::error::Result;
 use crate::problem::{Problem, Stage};
-use crate::scene::{Solution, Tangent};
-use crate::solver::{Continuum, Plan, Settings, System, TooLarge};
+use crate::scene::{Solution, Strategy, Tangent};
+use crate::solver::{Continuum, Plan, Settings, Shelf, System, TooLarge};
 
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
@@ -33,6 +35,8 @@ pub struct Totals {
     pub residual: f64,
     /// Where the load level turned on the path of equilibria: number of the increment, step, load level.
     pub turns: Vec<(usize, String, f64)>,
+    /// What was taken from the shelf, such as "factor of lower".
+    pub reused: Vec<String>,
     /// Largest |work − stored − dissipated|, relative.
     pub energy_balance: f64,
 }
@@ -61,6 +65,15 @@ pub struct Place<'a> {
 /// Called after the unloaded state (`number` 0) and after every increment, with the running counts.
 pub type Visit<'a> = &'a mut dyn FnMut(Place, &State, &Totals, &mut Clock) -> Result<()>;
 
+/// What a march may use.
+#[derive(Debug, Clone)]
+pub struct Means {
+    /// Memory [bytes]; a march that needs more is refused before its first factor.
+    pub memory: Option<u64>,
+    /// Bodies shared with other runs.
+    pub shelf: Option<Arc<Shelf>>,
+}
+
 /// Marches through all steps. `stage` hears of every stage of work.
 pub fn march(
     problem: &Problem,
@@ -68,12 +81,13 @@ pub fn march(
     stage: &mut dyn FnMut(&'static str),
     visit: Visit,
 ) -> Result<Totals> {
-    march_within(memory::available(), problem, clock, stage, visit)
+    let means = Means { memory: memory::available(), shelf: None };
+    march_within(means, problem, clock, stage, visit)
 }
 
-/// `march` if it can do with the memory that is available [bytes]; else it is refused before the first factor.
+/// `march` with what there is.
 pub fn march_within(
-    available: Option<u64>,
+    Means { memory: available, shelf }: Means,
     problem: &Problem,
     clock: &mut Clock,
     stage: &mut dyn FnMut(&'static str),
@@ -84,37 +98,54 @@ pub fn march_within(
         clock.begin(name);
     };
     begin(clock, "assemble");
-    let model = &problem.model;
+    let (model, strategy) = (&problem.model, problem.solution.strategy);
     let dofs = model.dofs();
+    let too_large = |TooLarge| memory::too_large(dofs);
     let asked = asked(problem);
     let stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
     let mut totals = Totals::default();
-    if asked.is_empty() {
+    let linear = asked.is_empty();
+    if linear && (strategy != Strategy::Auto || shelf.is_none()) {
         let (pattern, joints) = (&model.pattern(), &model.joints);
         let continuum = &model.continuum(pattern);
         let system = System { joints, stiffness: &stiffness, pattern, continuum };
         begin(clock, "order");
-        let plan =
-            Plan::analyse(pattern, &model.coordinates()).map_err(|TooLarge| memory::too_large(dofs))?;
-        memory::refuse(dofs, plan.entries(), memory::needed(plan.bytes(), pattern), available)?;
+        let plan = Plan::analyse(pattern, &model.coordinates()).map_err(too_large)?;
+        let needed = memory::needed(plan.bytes(), pattern.rows.len(), dofs);
+        memory::refuse(dofs, plan.entries(), needed, available)?;
         (totals.strategy, totals.factor_entries) = (plan.strategy(), plan.entries());
-        let mut engine = LinearEngine::new(&system, &plan);
-        return Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march();
+        let engine = &mut LinearEngine::joined(&system, &plan);
+        return Course::new(problem, engine, totals, clock, &mut begin, visit).march();
     }
-    let continuum = &Continuum::new(model).map_err(|TooLarge| memory::too_large(dofs))?;
     let settings = settings(&problem.solution);
-    let (condensed, estimate) = strategy::condensed(problem, continuum, &asked, available)?;
-    totals.factor_entries = continuum.parts.entries();
-    totals.estimate = Some(estimate);
-    if condensed {
-        totals.strategy = "condensed";
-        let mut engine = NewtonEngine::condensed(problem, continuum, &asked, &stiffness, settings);
-        Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
-    } else {
-        totals.strategy = "plain";
-        let mut engine = NewtonEngine::plain(problem, continuum, &asked, &stiffness, settings);
-        Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
+    if strategy != Strategy::Plain {
+        let continuum = &Continuum::new(model, shelf).map_err(too_large)?;
+        let (condensed, estimate) = strategy::condensed(problem, continuum, &asked, available)?;
+        totals.estimate = Some(estimate).filter(|_| !linear);
+        if condensed {
+            (totals.strategy, totals.factor_entries) = ("condensed", continuum.entries());
+            let engine: &mut dyn Engine = match linear {
+                true => &mut LinearEngine::condensed(problem, continuum, &stiffness),
+                false => &mut NewtonEngine::condensed(problem, continuum, &asked, &stiffness, settings),
+            };
+            let mut totals = Course::new(problem, engine, totals, clock, &mut begin, visit).march()?;
+            let found = continuum.found();
+            let named = |what: &'static str, bodies: &[usize]| -> Vec<String> {
+                bodies.iter().map(|&b| format!("{what} of {}", model.bodies[b].name)).collect()
+            };
+            totals.reused = [named("stiffness", &found.bodies), named("factor", &found.factors)].concat();
+            return Ok(totals);
+        }
     }
+    let pattern = &model.continuum_pattern();
+    let k = &model.continuum(pattern);
+    begin(clock, "order");
+    let plan = Plan::analyse(pattern, &model.coordinates()).map_err(too_large)?;
+    let needed = memory::needed(plan.bytes(), pattern.rows.len(), dofs);
+    memory::refuse(dofs, plan.entries(), needed, available)?;
+    (totals.strategy, totals.factor_entries) = ("plain", plan.entries());
+    let mut engine = NewtonEngine::plain(problem, pattern, k, &asked, &stiffness, settings);
+    Course::new(problem, &mut engine, totals, clock, &mut begin, visit).march()
 }
 
 fn settings(solution: &Solution) -> Settings {

@@ -1,6 +1,5 @@
 //! Memory: how much the run has taken, how much there is, and the refusal of what does not fit.
 
-use crate::assembly::Pattern;
 use crate::error::{Error, Result};
 
 /// Vectors, stresses and the fields being written, per dof [bytes], as measured.
@@ -25,10 +24,9 @@ fn kilobytes(file: &str, key: &str) -> Option<u64> {
 }
 
 /// Memory that a run still needs once its matrix is analysed [bytes]: the factor with what it takes to make it, the
-/// matrix that is factored, and what grows with the dofs.
-pub(super) fn needed(factor: usize, pattern: &Pattern) -> u64 {
-    let matrix = size_of::<f64>() * pattern.rows.len();
-    (factor + matrix) as u64 + PER_DOF * pattern.size() as u64
+/// entries of the matrix that is factored, and what grows with the dofs.
+pub(super) fn needed(factor: usize, matrix: usize, dofs: usize) -> u64 {
+    (factor + size_of::<f64>() * matrix) as u64 + PER_DOF * dofs as u64
 }
 
 /// Refuses a run that needs more than there is.

@@ -14,13 +14,15 @@ mod newton;
 mod path;
 pub mod point;
 mod prepare;
+mod shared;
 mod state;
 mod strategy;
 mod summary;
 
 pub use clock::Clock;
-pub use march::{Place, Totals, march, march_within};
+pub use march::{Means, Place, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
+pub use shared::Shared;
 pub use state::State;
 pub use strategy::Estimate;
 
@@ -29,6 +31,7 @@ use std::time::Duration;
 
 use crate::error::{Error, Result};
 use crate::output::{Row, Writer};
+use crate::problem::Problem;
 use crate::scene::Fields;
 
 /// What the user asked for.
@@ -76,7 +79,13 @@ pub enum Event<'a> {
         total: usize,
         /// The counts so far.
         totals: &'a Totals,
+        /// The scene bound to its meshes.
+        problem: &'a Problem,
+        /// The model after the increment.
+        state: &'a State,
     },
+    /// Something another run had left was used, such as "factor of lower".
+    Reused(&'a str),
 }
 
 /// Whoever listens to the run.
@@ -91,13 +100,21 @@ pub struct Done {
     pub collection: PathBuf,
     /// Seconds by stage.
     pub clock: Clock,
+    /// The counts.
+    pub totals: Totals,
     /// Most memory that the process has taken [bytes]; absent where the system does not tell.
     pub peak_memory: Option<u64>,
 }
 
 /// Runs a scene: prepares, solves, writes.
 pub fn run(options: &Options, listen: Listener) -> Result<Done> {
-    let Prepared { scene, name, problem, mut folder, mut clock } = prepare(options, listen)?;
+    run_sharing(options, None, listen)
+}
+
+/// `run` with what other runs of this process have left, and leaving them what they can use.
+pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Done> {
+    let Prepared { scene, name, problem, mut folder, mut clock } =
+        prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
     let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
     let listen = std::cell::RefCell::new(listen);
@@ -148,16 +165,19 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
         };
         writer.row(&row)?;
         let of = place.stage.increments;
-        (listen.borrow_mut())(Event::Increment { row: &row, number: place.number, of, total, totals });
+        let (number, problem) = (place.number, &problem);
+        (listen.borrow_mut())(Event::Increment { row: &row, number, of, total, totals, problem, state });
         Ok(())
     };
-    let marched =
-        march(&problem, &mut clock, &mut |name| (listen.borrow_mut())(Event::Stage(name)), &mut visit);
+    let means = Means { memory: memory::available(), shelf: shared.map(|shared| shared.shelf.clone()) };
+    let mut stage = |name| (listen.borrow_mut())(Event::Stage(name));
+    let marched = march_within(means, &problem, &mut clock, &mut stage, &mut visit);
     let (totals, end) = match marched {
         Ok(totals) => (totals, None),
         Err(end @ Error::NoEquilibrium { .. }) => (kept, Some(end)),
         Err(other) => return Err(other),
     };
+    totals.reused.iter().for_each(|what| (listen.borrow_mut())(Event::Reused(what)));
     if let (Some(writer), Some(balance)) = (&writer, balance) {
         let end = end.as_ref().map(Error::to_string);
         writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock, end))?;
@@ -169,5 +189,5 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
         Fields::None => path.clone(),
         _ => path.join(format!("{name}.pvd")),
     };
-    Ok(Done { folder: path, collection, clock, peak_memory: memory::peak() })
+    Ok(Done { folder: path, collection, clock, totals, peak_memory: memory::peak() })
 }

@@ -1,25 +1,21 @@
 //! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
 
-use std::sync::Arc;
-
 use nalgebra::Vector2;
 
-use super::engine::{Engine, Failure, Path};
+use super::engine::{Engine, Failure, Make, Path, bases};
 use super::loading::{Ledger, Load};
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
+use crate::assembly::{Pattern, Symmetric};
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
-    Affine, Base, Condensation, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
-    Point, Ramp, Respond, Settings, Solution,
+    Affine, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain, Point, Ramp,
+    Respond, Settings, Solution,
 };
 
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
-
-/// Makes the form for a set of supports; true if something was factored for it.
-type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
 
 /// Newton's method on a form of the equilibrium that is made anew for every set of supports.
 pub(super) struct NewtonEngine<'a, F> {
@@ -81,16 +77,9 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
                 [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
             })
             .collect();
-        let mut condensed: Option<Arc<Condensation>> = None;
+        let mut base = bases(problem, continuum, stiffness);
         let make = move |held: &[bool]| {
-            let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
-            let anew = reused.is_none();
-            let condensation = match reused {
-                Some(condensation) => condensation,
-                None => Arc::new(continuum.condense(held)?),
-            };
-            condensed = Some(condensation.clone());
-            let base = Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?;
+            let (base, anew) = base(held)?;
             Ok((Dual::new(base, asked, stiffness, &sound), anew))
         };
         NewtonEngine::new(problem, settings, Box::new(make), size)
@@ -101,13 +90,13 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
     /// On all displacements.
     pub(super) fn plain(
         problem: &'a Problem,
-        continuum: &'a Continuum,
+        pattern: &'a Pattern,
+        k: &'a Symmetric,
         asked: &'a [usize],
         stiffness: &'a [Vec<f64>],
         settings: Settings,
     ) -> Self {
         let make = move |held: &[bool]| {
-            let Continuum { pattern, stiffness: k, .. } = continuum;
             Ok((Plain::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
         };
         NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())

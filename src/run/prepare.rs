@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::folder::Folder;
+use super::shared::{Shared, joints_key};
 use super::{Clock, Event, Listener, Options};
 use crate::error::Result;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
@@ -28,15 +29,40 @@ pub struct Prepared {
 
 /// Reads, meshes and binds a scene.
 pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
-    let Ready { scene, name, folder, mut clock, files, file_of } = mesh_scene(options, listen)?;
+    prepare_sharing(options, None, listen)
+}
+
+/// `prepare` with what other runs have left.
+pub(super) fn prepare_sharing(
+    options: &Options,
+    shared: Option<&Shared>,
+    listen: Listener,
+) -> Result<Prepared> {
+    let Ready { scene, name, folder, mut clock, files, file_of } = mesh_scene(options, shared, listen)?;
     listen(Event::Stage("read meshes"));
     clock.begin("read meshes");
-    let meshes = files.par_iter().map(|path| mesh::read(path)).collect::<Vec<Result<Mesh>>>();
+    let read = |path: &PathBuf| shared.map_or_else(|| mesh::read(path), |shared| shared.read(path));
+    let meshes = files.par_iter().map(read).collect::<Vec<Result<Mesh>>>();
     let meshes = meshes.into_iter().collect::<Result<Vec<Mesh>>>()?; // of several errors the first counts
     let (meshes, mut warnings) = subdomain_meshes(&scene, meshes, &file_of)?;
     listen(Event::Stage("bind"));
     clock.begin("bind");
-    let mut problem = Problem::bind(&scene, meshes)?;
+    let mut problem = match shared {
+        Some(shared) => {
+            let key = joints_key(&scene, &files, &file_of);
+            let known = shared.joints(&key);
+            if known.is_some() {
+                listen(Event::Reused("joints"));
+            }
+            let joints = known.as_deref().map_or(&[][..], Vec::as_slice);
+            let problem = Problem::bind_joined(&scene, meshes, joints)?;
+            if known.is_none() {
+                shared.keep_joints(key, &problem.model.joints);
+            }
+            problem
+        }
+        None => Problem::bind(&scene, meshes)?,
+    };
     warnings.append(&mut problem.warnings);
     problem.warnings = warnings;
     for joint in &problem.model.joints {
@@ -50,7 +76,7 @@ pub fn prepare(options: &Options, listen: Listener) -> Result<Prepared> {
 
 /// Meshes a scene and nothing else.
 pub fn mesh(options: &Options, listen: Listener) -> Result<PathBuf> {
-    let mut folder = mesh_scene(options, listen)?.folder;
+    let mut folder = mesh_scene(options, None, listen)?.folder;
     folder.keep();
     Ok(folder.path().join("mesh"))
 }
@@ -67,7 +93,7 @@ struct Ready {
     file_of: Vec<usize>,
 }
 
-fn mesh_scene(options: &Options, listen: Listener) -> Result<Ready> {
+fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Ready> {
     listen(Event::Stage("read scene"));
     let mut clock = Clock::new("read scene");
     let scene = scene::read(&options.scene, &options.settings)?;
@@ -78,8 +104,13 @@ fn mesh_scene(options: &Options, listen: Listener) -> Result<Ready> {
     let (files, file_of) = files(&scene)?;
     let jobs: Vec<Job> = files.iter().filter_map(Origin::job).cloned().collect();
     let folder = Folder::open(&out)?;
-    let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit);
-    let meshed = mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?;
+    let meshed = match shared {
+        Some(shared) => shared.mesh_all(&jobs)?,
+        None => {
+            let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit);
+            mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?
+        }
+    };
     for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {
         listen(Event::Meshed { name: &job.name, path, reused: *reused });
     }

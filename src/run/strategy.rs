@@ -44,29 +44,31 @@ pub(super) fn condensed(
     asked: &[usize],
     available: Option<u64>,
 ) -> Result<(bool, Estimate)> {
-    let (parts, model) = (&continuum.parts, &problem.model);
-    let border = parts.border() as f64;
+    let (model, dofs) = (&problem.model, problem.model.dofs());
+    let border = continuum.border() as f64;
     let coefficients = asked.iter().map(|&k| model.joints[k].size()).sum::<usize>() as f64;
     let changes = problem.stages.windows(2).filter(|pair| pair[0].held != pair[1].held).count();
     let increments = problem.stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
     let iterations = if active(problem).is_empty() { 1.0 } else { ITERATIONS * increments };
     let base = border.powi(3) / 3.0 + border * coefficients * (border + coefficients);
     let estimate = Estimate {
-        condensed: parts.operations()
+        condensed: continuum.operations()
             + (1 + changes) as f64 * (base + 2.0 * coefficients.powi(3))
             + iterations * 2.0 / 3.0 * coefficients.powi(3),
-        plain: iterations * 2.0 * parts.operations(),
+        plain: iterations * 2.0 * continuum.operations(),
     };
-    let dense = parts.border().pow(2) + 5 * (coefficients as usize).pow(2);
-    let with = |dense: usize| memory::needed(parts.bytes() + size_of::<f64>() * dense, &continuum.pattern);
-    let fits = available.is_none_or(|available| with(dense) <= available);
+    let dense = continuum.border().pow(2) + 5 * (coefficients as usize).pow(2);
+    let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
+    let fits = available.is_none_or(|available| needed <= available);
     let condensed = match problem.solution.strategy {
         Strategy::Auto => {
             let stiff = asked.iter().any(|&k| problem.stiff[k]);
-            stiff || fits && estimate.condensed <= estimate.plain
+            stiff || asked.is_empty() || fits && estimate.condensed <= estimate.plain
         }
         strategy => strategy == Strategy::Condensed,
     };
-    memory::refuse(model.dofs(), parts.entries(), with(if condensed { dense } else { 0 }), available)?;
+    if condensed {
+        memory::refuse(dofs, continuum.entries(), needed, available)?;
+    }
     Ok((condensed, estimate))
 }

@@ -37,7 +37,7 @@ impl<'a> Base<'a> {
         stiffness: &'a [Vec<f64>],
         held: &[bool],
     ) -> Result<Base<'a>, NotPositiveDefinite> {
-        let mut border = condensation.schur.clone();
+        let mut border = continuum.schur(&condensation);
         let place = |dof: usize| continuum.places[dof].map(|place| place as usize);
         for (joint, stiffness) in joints.iter().zip(stiffness) {
             let mut tangent = Tangent::new(joint);
@@ -56,7 +56,7 @@ impl<'a> Base<'a> {
                 (k + 1..border.nrows()).for_each(|i| border[(i, k)] = 0.0);
             }
         }
-        cholesky(&mut border, parallelism(continuum.parts.border()))?;
+        cholesky(&mut border, parallelism(continuum.border()))?;
         Ok(Base { continuum, condensation, joints, stiffness, held: held.to_vec(), border })
     }
 
@@ -129,7 +129,7 @@ impl Factored for Base<'_> {
 
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let mut force = vec![0.0; f.len()];
-        self.continuum.stiffness.add_product_by_differences(&self.continuum.pattern, u, &mut force);
+        self.continuum.add_product(u, &mut force);
         for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
             joint.add_force(&tractions(joint, stiffness, u), &mut force);
         }
@@ -137,7 +137,7 @@ impl Factored for Base<'_> {
     }
 
     fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
-        self.continuum.stiffness.add_absolute_product_by_differences(&self.continuum.pattern, u, scale);
+        self.continuum.add_absolute_product(u, scale);
         for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
             let mut force = vec![0.0; u.len()];
             joint.add_force(&tractions(joint, stiffness, u), &mut force);

@@ -8,7 +8,6 @@
 //! ```
 
 use std::collections::BinaryHeap;
-use std::ops::Range;
 
 use super::Order;
 use super::graph::{Graph, NONE, elimination_tree, postorder};
@@ -74,9 +73,8 @@ impl Cut {
         Cut { graph, components, parts: parts.into_iter().map(nodes).collect(), border: nodes(border) }
     }
 
-    /// One part a body, all nodes of the joints in the border: what is left is the condensation on the joints.
-    /// `bodies` are ranges of nodes that no entry of the pattern connects; an order of all nodes serves all parts.
-    pub fn along_joints(pattern: &Pattern, order: &Order, bodies: &[Range<usize>], joined: &[bool]) -> Cut {
+    /// All nodes on joints as border, the rest of the body as one part: what is left is its condensation on the joints.
+    pub fn along_joints(pattern: &Pattern, order: &Order, joined: &[bool]) -> Cut {
         let (graph, components) = (Graph::new(pattern), pattern.components());
         let order = order.forward.iter().step_by(components).map(|dof| dof / components as u32);
         let (border, mut nodes): (Vec<u32>, Vec<u32>) = order.partition(|&node| joined[node as usize]);
@@ -85,12 +83,8 @@ impl Cut {
         let mut parents = elimination_tree(&graph, &nodes);
         parents.truncate(inner);
         parents.iter_mut().filter(|parent| **parent as usize >= inner).for_each(|parent| *parent = NONE);
-        let mut parts = vec![Vec::new(); bodies.len()];
-        for place in postorder(&parents) {
-            let node = nodes[place as usize];
-            parts[bodies.partition_point(|body| body.end <= node as usize)].push(node);
-        }
-        parts.retain(|part| !part.is_empty());
+        let part: Vec<u32> = postorder(&parents).into_iter().map(|place| nodes[place as usize]).collect();
+        let parts = if part.is_empty() { Vec::new() } else { vec![part] };
         Cut { graph, components, parts, border }
     }
 

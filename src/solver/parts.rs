@@ -15,7 +15,7 @@
 //! 400 000 and a million dofs (alternating runs), with a sixth more memory; on one thread at 400 000 dofs 1.2.
 //! Cut along the joint instead, one body a part, the border is three times as large and the time 0.91 and 0.94.
 
-use faer::{Mat, MatMut, Par};
+use faer::{Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
 use super::cut::Cut;
@@ -151,25 +151,16 @@ impl Parts {
         Ok(PartsFactor { plan: self, values, border: s })
     }
 
-    /// b_C − Σ Bₚ Aₚ⁻¹ bₚ on the border for several right-hand sides, one a column: all that the border needs of them.
-    pub fn on_border(&self, values: &[Vec<f64>], b: &[Vec<f64>]) -> Mat<f64> {
-        self.forward(values, b).1
-    }
-
-    /// Both substitutions' way down: every part's own dofs and its contribution to the border, and what the border then has.
-    fn forward(&self, values: &[Vec<f64>], b: &[Vec<f64>]) -> (Vec<Mat<f64>>, Mat<f64>) {
-        let inner: Vec<Mat<f64>> = self
-            .parts
-            .par_iter()
-            .zip(values)
-            .map(|(part, values)| {
-                let at =
-                    |i: usize, k: usize| if i < part.inner { b[k][part.block.dofs[i] as usize] } else { 0.0 };
-                let mut y = Mat::from_fn(part.block.dofs.len(), b.len(), at);
-                part.forward(values, y.as_mut());
-                y
-            })
-            .collect();
+    /// L⁻¹ B of every part, and what the border needs of B: B_C − Σ Bₚ Aₚ⁻¹ bₚ. One right-hand side a column.
+    pub(super) fn reduce(&self, values: &[Vec<f64>], b: &[&[f64]]) -> (Vec<Mat<f64>>, Mat<f64>) {
+        let forward = |(part, values): (&Part, &Vec<f64>)| {
+            let at =
+                |i: usize, k: usize| if i < part.inner { b[k][part.block.dofs[i] as usize] } else { 0.0 };
+            let mut y = Mat::from_fn(part.block.dofs.len(), b.len(), at);
+            part.forward(values, y.as_mut());
+            y
+        };
+        let inner: Vec<Mat<f64>> = self.parts.par_iter().zip(values).map(forward).collect();
         let mut x = Mat::from_fn(self.border(), b.len(), |i, k| b[k][self.border.dofs[i] as usize]);
         for (part, y) in self.parts.iter().zip(&inner) {
             for k in 0..b.len() {
@@ -181,10 +172,14 @@ impl Parts {
         (inner, x)
     }
 
-    /// Solves A X = B in place with the parts' factors and whatever solves S X_C = B_C in place.
-    pub fn solve(&self, values: &[Vec<f64>], b: &mut [Vec<f64>], border_solve: impl FnOnce(MatMut<f64>)) {
-        let (mut inner, mut x) = self.forward(values, b);
-        border_solve(x.as_mut());
+    /// The solution from what `reduce` left of the parts and the border's own.
+    pub(super) fn expand(
+        &self,
+        values: &[Vec<f64>],
+        mut inner: Vec<Mat<f64>>,
+        x: MatRef<f64>,
+        b: &mut [Vec<f64>],
+    ) {
         self.parts.par_iter().zip(values).zip(&mut inner).for_each(|((part, values), y)| {
             for k in 0..y.ncols() {
                 for (i, &place) in part.border.iter().enumerate() {
@@ -200,6 +195,14 @@ impl Parts {
             }
             self.border.dofs.iter().enumerate().for_each(|(i, &dof)| b[dof as usize] = x[(i, k)]);
         }
+    }
+
+    /// Solves A X = B in place with the parts' factors and whatever solves S X_C = B_C in place.
+    pub fn solve(&self, values: &[Vec<f64>], b: &mut [Vec<f64>], border_solve: impl FnOnce(MatMut<f64>)) {
+        let sides: Vec<&[f64]> = b.iter().map(|b| &b[..]).collect();
+        let (inner, mut x) = self.reduce(values, &sides);
+        border_solve(x.as_mut());
+        self.expand(values, inner, x.as_ref(), b);
     }
 }
 

@@ -28,7 +28,7 @@ struct Refined {
 }
 
 /// A factored matrix with its supports.
-pub(super) trait Factored {
+pub trait Factored {
     /// True where a dof is prescribed.
     fn held(&self) -> &[bool];
     /// f − A u.

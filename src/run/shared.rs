@@ -1,0 +1,90 @@
+//! What several runs of one process share: mesh files, meshes, joints, condensed bodies.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use serde_json::Value;
+
+use super::{Options, memory};
+use crate::assembly::Joint;
+use crate::error::Result;
+use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
+use crate::scene::Scene;
+use crate::solver::Shelf;
+
+/// Memory for condensed bodies where the system does not tell what it has [bytes].
+const ROOM: u64 = 1 << 30;
+
+/// What the runs of one process share. Runs in several threads may use it at a time.
+#[derive(Debug)]
+pub struct Shared {
+    /// Where the meshes of all runs are.
+    folder: PathBuf,
+    gmsh: Gmsh,
+    meshing: Mutex<()>,
+    meshes: Mutex<HashMap<PathBuf, Arc<Mesh>>>,
+    joints: Mutex<HashMap<String, Arc<Vec<Joint>>>>,
+    /// Condensed bodies.
+    pub(super) shelf: Arc<Shelf>,
+}
+
+impl Shared {
+    /// With the mesher of these options and meshes in `folder`; a quarter of the memory is for condensed bodies.
+    pub fn new(options: &Options, folder: &Path) -> Shared {
+        let room = memory::available().map_or(ROOM, |available| available / 4) as usize;
+        Shared {
+            folder: folder.into(),
+            gmsh: Gmsh::new(&options.gmsh, options.gmsh_limit),
+            meshing: Mutex::default(),
+            meshes: Mutex::default(),
+            joints: Mutex::default(),
+            shelf: Arc::new(Shelf::new(room)),
+        }
+    }
+
+    /// Meshes what is stale, one run at a time so that none is meshed twice.
+    pub(super) fn mesh_all(&self, jobs: &[Job]) -> Result<Vec<Meshed>> {
+        let _one = lock(&self.meshing);
+        mesh::mesh_all(&self.gmsh, &self.folder, jobs)
+    }
+
+    /// A mesh, read unless some run has read it.
+    pub(super) fn read(&self, path: &Path) -> Result<Mesh> {
+        if let Some(known) = lock(&self.meshes).get(path) {
+            return Ok(Mesh::clone(known));
+        }
+        let mesh = mesh::read(path)?;
+        lock(&self.meshes).insert(path.into(), Arc::new(mesh.clone()));
+        Ok(mesh)
+    }
+
+    /// The joints of a scene on these meshes, if some run has bound them.
+    pub(super) fn joints(&self, key: &str) -> Option<Arc<Vec<Joint>>> {
+        lock(&self.joints).get(key).cloned()
+    }
+
+    /// Keeps the joints of a scene.
+    pub(super) fn keep_joints(&self, key: String, joints: &[Joint]) {
+        lock(&self.joints).insert(key, Arc::new(joints.to_vec()));
+    }
+}
+
+/// All that decides the joints of a scene on these meshes: everything but laws, materials, loads and output.
+pub(super) fn joints_key(scene: &Scene, files: &[PathBuf], file_of: &[usize]) -> String {
+    let interface = |interface| {
+        let mut value = serde_json::to_value(interface).unwrap_or_default();
+        for key in ["law", "law_tolerance", "initial_traction"] {
+            value.as_object_mut().and_then(|object| object.remove(key));
+        }
+        value
+    };
+    let interfaces: Vec<Value> = scene.interfaces.values().map(interface).collect();
+    let names: Vec<&String> = scene.interfaces.keys().collect();
+    let parts: Vec<_> = scene.subdomains.iter().map(|(name, part)| (name, &part.surface)).collect();
+    format!("{:?}", (files, file_of, scene.thickness.to_bits(), parts, names, interfaces))
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

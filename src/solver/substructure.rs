@@ -1,0 +1,78 @@
+//! One body condensed on the nodes that joints touch: its interior eliminated, a dense S left on its border.
+//!
+//! ```text
+//!   S = C − B A⁻¹ Bᵀ      A: the interior, C: the border; symmetric, singular for a floating body
+//! ```
+//!
+//! It knows nothing of other bodies, so whoever has the same body again can have the same condensation.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use faer::Mat;
+
+use super::{Cut, NotPositiveDefinite, Parts, TooLarge, nested_dissection};
+use crate::assembly::{Body, Pattern, Symmetric};
+
+/// The stiffness of a body and the plan of its condensation.
+#[derive(Debug)]
+pub struct Substructure {
+    pub(super) pattern: Pattern,
+    /// K.
+    pub(super) stiffness: Symmetric,
+    /// The interior as one part, the rest as border.
+    pub(super) parts: Parts,
+    /// Condensations that are kept.
+    kept: Mutex<Vec<Arc<Condensed>>>,
+}
+
+/// The interior's factor under one set of supports, and S.
+#[derive(Debug)]
+pub struct Condensed {
+    /// Dofs of the interior that are held.
+    held: Vec<bool>,
+    /// Values of L.
+    pub(super) values: Vec<Vec<f64>>,
+    /// Lower triangle of S.
+    pub(super) schur: Mat<f64>,
+}
+
+impl Substructure {
+    /// Assembles a body and plans its condensation on the nodes that are `joined`.
+    pub fn new(
+        components: usize,
+        body: &Body,
+        thickness: f64,
+        joined: &[bool],
+    ) -> Result<Substructure, TooLarge> {
+        let pattern = body.pattern(components);
+        let stiffness = body.stiffness(&pattern, thickness);
+        let order = nested_dissection(&pattern, body.mesh.points.as_flattened());
+        let parts = Parts::new(&pattern, Cut::along_joints(&pattern, &order, joined))?;
+        Ok(Substructure { pattern, stiffness, parts, kept: Mutex::default() })
+    }
+
+    /// Eliminates the interior; `held` are its held dofs, none on the border.
+    pub(super) fn condense(&self, held: Vec<bool>) -> Result<Condensed, NotPositiveDefinite> {
+        let mut matrix = self.stiffness.clone();
+        matrix.hold(&self.pattern, &held);
+        let (values, schur) = self.parts.eliminate(&matrix, true)?;
+        Ok(Condensed { held, values, schur })
+    }
+
+    /// A condensation that was kept for these supports.
+    pub(super) fn kept(&self, held: &[bool]) -> Option<Arc<Condensed>> {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.iter().find(|condensed| condensed.held == held).cloned()
+    }
+
+    /// Keeps a condensation for whoever has this body again.
+    pub(super) fn keep(&self, condensed: &Arc<Condensed>) {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).push(condensed.clone());
+    }
+
+    /// Memory of a condensation [bytes].
+    pub(super) fn bytes(&self) -> usize {
+        let border = self.parts.border();
+        size_of::<f64>() * (self.parts.entries() + border * border)
+    }
+}
