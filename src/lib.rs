@@ -15,7 +15,7 @@
 //!
 //! The rooms, each of which may import only those above it (a test enforces the table):
 //! `error`, `shape`, `law`, `mesh`, `scene`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
-//! `run`, `cli`.
+//! `run`, `study`, `cli`.
 
 #![warn(missing_docs)]
 // no panic is reachable from input
@@ -35,3 +35,4 @@ pub mod run;
 pub mod scene;
 pub mod shape;
 pub mod solver;
+pub mod study;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// The rooms from top to bottom: each may import those before it.
-const ROOMS: [&str; 13] = [
+const ROOMS: [&str; 14] = [
     "error",
     "shape",
     "law",
@@ -16,6 +16,7 @@ const ROOMS: [&str; 13] = [
     "problem",
     "output",
     "run",
+    "study",
     "cli",
 ];
 

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::run::Options;
 
@@ -94,11 +94,56 @@ A path prescribes displacement or stress, segment by segment and component by co
         #[arg(long = "set", value_name = "KEY=VALUE")]
         settings: Vec<String>,
     },
-    /// Print the JSON Schema of scenes
+    /// Run a scene at many points of its keys and measure time and error
     #[command(after_help = "\
-Example:
-  midplane schema > geo/scene.schema.json  for editors that complete and check a scene")]
-    Schema,
+Examples:
+  midplane study geo/strip/study.json               results/strip_study/study.csv; goes on where it was
+  midplane study geo/strip/study.json --jobs 4      four points side by side
+  midplane study geo/strip/study.json --count       number of points, for a cluster's array of jobs
+  midplane study geo/strip/study.json --point 7     that point only; a later run without --point collects
+
+What a study may hold: midplane schema study")]
+    Study {
+        /// The study, JSON
+        file: PathBuf,
+        /// Folder of the results; results/<folder>_<file> if absent
+        #[arg(short, long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Points side by side
+        #[arg(long, value_name = "N", default_value = "1")]
+        jobs: NonZeroUsize,
+        /// Threads of every point; its share of all cores if absent
+        #[arg(long, value_name = "N")]
+        threads: Option<NonZeroUsize>,
+        /// Run this point only, counted from 0
+        #[arg(long, value_name = "K")]
+        point: Option<usize>,
+        /// Print the number of points and do nothing
+        #[arg(long, conflicts_with = "point")]
+        count: bool,
+        /// Run the point once and write its outcome here
+        #[arg(long, value_name = "FILE", requires = "point", hide = true)]
+        once: Option<PathBuf>,
+        /// The mesher
+        #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
+        gmsh: PathBuf,
+        /// Seconds that one run of the mesher may take
+        #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+        gmsh_limit: u64,
+        /// Print errors only
+        #[arg(short, long)]
+        quiet: bool,
+    },
+    /// Print the JSON Schema of scenes or studies
+    #[command(after_help = "\
+Examples:
+  midplane schema > geo/scene.schema.json        for editors that complete and check a scene
+  midplane schema study > geo/study.schema.json  the same for a study")]
+    Schema {
+        /// Of which file
+        #[arg(value_enum, default_value_t = Of::Scene)]
+        of: Of,
+    },
     /// Print a completion script for a shell
     #[command(after_help = "\
 Example:
@@ -107,6 +152,13 @@ Example:
         /// bash, elvish, fish, powershell or zsh
         shell: clap_complete::Shell,
     },
+}
+
+/// What has a schema.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum Of {
+    Scene,
+    Study,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

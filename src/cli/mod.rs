@@ -2,14 +2,17 @@
 
 mod arguments;
 mod check;
+mod follow;
 mod report;
 mod show;
 
+use std::path::Path;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{CommandFactory, Parser};
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, Of};
 
 use crate::error::{Error, Result};
 use crate::law::Stepping;
@@ -17,6 +20,7 @@ use crate::law::path;
 use crate::output;
 use crate::run;
 use crate::scene;
+use crate::study;
 
 /// The program: reads the arguments, does what they say, prints the one error there may be.
 pub fn main() -> ExitCode {
@@ -68,7 +72,26 @@ fn act(arguments: Arguments) -> Result<()> {
             print(&String::from_utf8_lossy(&csv))?;
             ended.map_or(Ok(()), Err)
         }
-        Command::Schema => print(&format!("{:#}\n", scene::scene_schema())),
+        Command::Study { file, out, jobs, threads, point, count, once, gmsh, gmsh_limit, quiet } => {
+            let plan = study::Plan::read(&file, point)?;
+            if count {
+                return print(&format!("{}\n", plan.len()));
+            }
+            let out = out.unwrap_or_else(|| Path::new("results").join(&plan.name));
+            let limit = Duration::from_secs(gmsh_limit);
+            let options = run::Options { gmsh, gmsh_limit: limit, ..run::Options::of(&plan.scene) };
+            let cores = std::thread::available_parallelism().map_or(1, usize::from);
+            let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
+            let means = study::Means { out, file, options, jobs: jobs.get(), threads };
+            follow::study(&plan, &means, point, once.as_deref(), quiet)
+        }
+        Command::Schema { of } => {
+            let schema = match of {
+                Of::Scene => scene::scene_schema(),
+                Of::Study => study::study_schema(),
+            };
+            print(&format!("{schema:#}\n"))
+        }
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "midplane", &mut script);

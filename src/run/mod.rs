@@ -26,7 +26,7 @@ pub use shared::Shared;
 pub use state::State;
 pub use strategy::Estimate;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{Error, Result};
@@ -49,6 +49,14 @@ pub struct Options {
     pub gmsh_limit: Duration,
 }
 
+impl Options {
+    /// A scene with gmsh as it is found and nothing else set.
+    pub fn of(scene: &Path) -> Options {
+        let (gmsh, gmsh_limit) = ("gmsh".into(), Duration::from_secs(600));
+        Options { scene: scene.into(), out: None, settings: Vec::new(), gmsh, gmsh_limit }
+    }
+}
+
 /// What happens, for whoever shows it.
 #[derive(Debug)]
 pub enum Event<'a> {
@@ -59,7 +67,7 @@ pub enum Event<'a> {
         /// The subdomain, or the geometry that several share.
         name: &'a str,
         /// Its file.
-        path: &'a std::path::Path,
+        path: &'a Path,
         /// True if it was there already.
         reused: bool,
     },

@@ -19,7 +19,7 @@ mod value;
 
 pub use expression::{Place, Variable};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
-pub use read::{parse, read};
+pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;

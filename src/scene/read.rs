@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
@@ -17,16 +18,30 @@ pub fn read(path: &Path, settings: &[String]) -> Result<Scene> {
 
 /// Reads a scene from its text; `file` is for messages and for the files it names.
 pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
-    let mut value: Value = serde_json::from_str(&text).map_err(|error| syntax(&file, &text, &error))?;
+    let set = |value: &mut Value, source: &Source| {
+        settings.iter().try_for_each(|setting| set::apply(value, setting, &source.file))
+    };
+    let (mut scene, source) = document::<Scene>(file, text, "a scene", set)?;
+    scene.source = source;
+    scene.check()?;
+    Ok(scene)
+}
+
+/// Reads what a JSON text says, after `change`; `noun` is what it is called, such as "a scene".
+pub fn document<T: DeserializeOwned>(
+    file: PathBuf,
+    text: String,
+    noun: &str,
+    change: impl FnOnce(&mut Value, &Source) -> Result<()>,
+) -> Result<(T, Source)> {
+    let mut value: Value = serde_json::from_str(&text).map_err(|error| syntax(&file, &text, noun, &error))?;
     let source = Source::new(file, text);
     if let Some(path) = &source.duplicate {
         let key = path.last().map_or("", String::as_str);
         return Err(source.refuse(path, format!("the key \"{key}\" occurs twice"), "keep one of them"));
     }
-    for setting in settings {
-        set::apply(&mut value, setting, &source.file)?;
-    }
-    let mut scene: Scene = serde_path_to_error::deserialize(&value).map_err(|error| {
+    change(&mut value, &source)?;
+    let read = serde_path_to_error::deserialize(&value).map_err(|error| {
         let part = |part: &Segment| match part {
             Segment::Seq { index } => Some(index.to_string()),
             Segment::Unknown => None,
@@ -41,12 +56,10 @@ pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> 
         {
             return source.refuse_within(&path, text, fault.span, fault.what, fault.cure);
         }
-        let (what, cure) = explain(&message);
+        let (what, cure) = explain(&message, noun);
         source.refuse(&path, what, cure)
     })?;
-    scene.source = source;
-    scene.check()?;
-    Ok(scene)
+    Ok((read, source))
 }
 
 /// The string at a path.
@@ -59,7 +72,7 @@ fn text_at<'a>(value: &'a Value, path: &[String]) -> Option<&'a str> {
 }
 
 /// A text that is not JSON.
-fn syntax(file: &Path, text: &str, error: &serde_json::Error) -> Error {
+fn syntax(file: &Path, text: &str, noun: &str, error: &serde_json::Error) -> Error {
     let start: usize = text.split_inclusive('\n').take(error.line().saturating_sub(1)).map(str::len).sum();
     let mut offset = (start + error.column().saturating_sub(1)).min(text.len());
     while !text.is_char_boundary(offset) {
@@ -74,11 +87,11 @@ fn syntax(file: &Path, text: &str, error: &serde_json::Error) -> Error {
     };
     let message = error.to_string();
     let what = message.split(" at line ").next().unwrap_or(&message).to_string();
-    Error::Text { at: Box::new(at), what, cure: "a scene is one JSON object".into() }
+    Error::Text { at: Box::new(at), what, cure: format!("{noun} is one JSON object") }
 }
 
 /// serde's message as (what is wrong, what would have been right).
-fn explain(message: &str) -> (String, String) {
+fn explain(message: &str, noun: &str) -> (String, String) {
     let quoted =
         |text: &str| -> Vec<String> { text.split('`').skip(1).step_by(2).map(str::to_string).collect() };
     for (kind, noun) in [("unknown field ", "key"), ("unknown variant ", "value")] {
@@ -98,7 +111,7 @@ fn explain(message: &str) -> (String, String) {
     }
     match message.split_once(", expected ") {
         Some((what, expected)) => (what.into(), format!("expected {expected}")),
-        None => (message.into(), "`midplane schema` prints what a scene may hold".into()),
+        None => (message.into(), format!("`midplane schema` prints what {noun} may hold")),
     }
 }
 

@@ -1,0 +1,148 @@
+//! What is taken from a run while it goes: the columns of its history, and norms at its end.
+//!
+//! ```text
+//!   error of a field = √(∫ |field − exact|² / ∫ |exact|²)      joints: Σ over law points, bodies: Σ over cells
+//! ```
+
+use indexmap::IndexMap;
+
+use super::file::{Field, Measure};
+use crate::assembly::Model;
+use crate::output::Row;
+use crate::problem::{Problem, stiffness_number};
+use crate::run::{State, Totals};
+use crate::scene::{Place, Value};
+
+/// Takes the measures of one run.
+#[derive(Debug)]
+pub(super) struct Gauge<'a> {
+    measures: &'a IndexMap<String, Measure>,
+    /// Values so far, with the magnitude of the peak where there is one.
+    taken: Vec<(f64, f64)>,
+    /// Sizes and counts up to the last increment.
+    pub(super) counts: IndexMap<&'static str, f64>,
+    /// How the equations are solved.
+    pub(super) strategy: &'static str,
+}
+
+impl<'a> Gauge<'a> {
+    pub(super) fn new(measures: &'a IndexMap<String, Measure>) -> Gauge<'a> {
+        let taken = vec![(f64::NAN, -1.0); measures.len()];
+        Gauge { measures, taken, counts: IndexMap::new(), strategy: "" }
+    }
+
+    /// Looks at an increment.
+    pub(super) fn look(&mut self, row: &Row, totals: &Totals, problem: &Problem, state: &State) {
+        for ((name, measure), taken) in self.measures.iter().zip(&mut self.taken) {
+            let column = |of: &str| value(row, problem, name, of);
+            match measure {
+                Measure::Last { of, .. } => taken.0 = column(of),
+                Measure::Peak { of, .. } => {
+                    let now = column(of);
+                    if now.abs() > taken.1 {
+                        *taken = (now, now.abs());
+                    }
+                }
+                Measure::AtPeak { of, peak_of, .. } => {
+                    let peak = column(peak_of).abs();
+                    if peak > taken.1 {
+                        *taken = (column(of), peak);
+                    }
+                }
+                // the displacements of an increment whose fields are not stored may be missing; the last has them
+                Measure::Error { field, of, exact } => taken.0 = error(problem, state, *field, of, exact),
+            }
+        }
+        let model = &problem.model;
+        let stiffness = model.joints.iter().zip(&problem.laws);
+        let stiffness = stiffness.map(|(joint, (law, _))| stiffness_number(model, joint, law));
+        self.strategy = totals.strategy;
+        self.counts = IndexMap::from([
+            ("nodes", model.nodes() as f64),
+            ("dofs", model.dofs() as f64),
+            ("stiffness_number", stiffness.fold(0.0, f64::max)),
+            ("increments", totals.increments as f64),
+            ("iterations", totals.iterations as f64),
+            ("halved", totals.halved as f64),
+            ("factorisations", totals.factorisations as f64),
+            ("factor_entries", totals.factor_entries as f64),
+        ]);
+    }
+
+    /// The measures by name; what could not be taken is not a number.
+    pub(super) fn values(&self) -> IndexMap<String, f64> {
+        self.measures.keys().cloned().zip(self.taken.iter().map(|(value, _)| *value)).collect()
+    }
+}
+
+/// The column of the history that a probe of a measure has: that of the scene, or one made for it.
+pub(super) fn column_of(measure: &str, of: &str) -> String {
+    format!("study:{measure}:{of}")
+}
+
+fn value(row: &Row, problem: &Problem, measure: &str, of: &str) -> f64 {
+    let made = column_of(measure, of);
+    let names = problem.probes.iter().map(|(name, _)| name.clone());
+    let reactions = problem.reactions.iter();
+    let reactions =
+        reactions.map(|reaction| format!("reaction:{}:{}", reaction.group, reaction.direction.name()));
+    let found = names.chain(reactions).position(|name| name == of || name == made);
+    found.and_then(|i| row.values.get(i)).copied().unwrap_or(f64::NAN)
+}
+
+fn error(problem: &Problem, state: &State, field: Field, of: &str, exact: &[Value; 2]) -> f64 {
+    let model = &problem.model;
+    let sums = match field {
+        Field::Displacement => displacement(model, &state.snapshot.u, of, exact),
+        Field::Traction => on_joint(model, &state.snapshot.tractions, of, exact),
+        Field::Jump => on_joint(model, &state.snapshot.jumps, of, exact),
+    };
+    let Some([misfit, size]) = sums else { return f64::NAN };
+    if misfit == 0.0 { 0.0 } else { (misfit / size).sqrt() }
+}
+
+/// Σ w |field − exact|² and Σ w |exact|² over the law points of a joint.
+fn on_joint(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
+    let k = model.joints.iter().position(|joint| joint.name == of)?;
+    let coupling = &model.joints[k].coupling;
+    let mut sums = [0.0; 2];
+    for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
+        let [x, y] = point.position;
+        let place = Place { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
+        add(&mut sums, point.weight, *field, exact, &place);
+    }
+    Some(sums)
+}
+
+/// ∫ |u − exact|² and ∫ |exact|² over a body.
+fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
+    let b = model.bodies.iter().position(|body| body.name == of)?;
+    let (mesh, u) = (&model.bodies[b].mesh, u.get(model.dofs_of(b))?);
+    let mut sums = [0.0; 2];
+    for (c, &shape) in mesh.cells.shapes.iter().enumerate() {
+        let nodes = mesh.cells.nodes(c);
+        for &[xi, eta, weight] in shape.field_rule() {
+            let values = shape.values(xi, eta);
+            let (mut place, mut moved, mut j) = ([0.0; 2], [0.0; 2], [[0.0; 2]; 2]);
+            for (i, &node) in nodes.iter().enumerate() {
+                for d in 0..2 {
+                    place[d] += values.n[i] * mesh.points[node][d];
+                    moved[d] += values.n[i] * u[model.components * node + d];
+                    (0..2).for_each(|a| j[a][d] += values.dn[i][a] * mesh.points[node][d]);
+                }
+            }
+            let area = weight * (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
+            let place = Place { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
+            add(&mut sums, area, moved, exact, &place);
+        }
+    }
+    Some(sums)
+}
+
+fn add(sums: &mut [f64; 2], weight: f64, field: [f64; 2], exact: &[Value; 2], place: &Place) {
+    for d in 0..2 {
+        let exact = exact[d].at(place);
+        sums[0] += weight * (field[d] - exact).powi(2);
+        sums[1] += weight * exact.powi(2);
+    }
+}

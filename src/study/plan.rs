@@ -1,0 +1,154 @@
+//! A study that is ready to be run: its points, checked at the door, and the runs of its reference.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::design::{Point, points, setting};
+use super::file::{Field, Measure, Process, Study};
+use super::gauge::column_of;
+use crate::error::{Error, Result, name_cure};
+use crate::scene::probe::Probe;
+use crate::scene::{self, Scene, Source, document};
+
+/// A study with its points.
+#[derive(Debug)]
+pub struct Plan {
+    /// What its file says.
+    pub study: Study,
+    /// Its name: that of its folder and file.
+    pub name: String,
+    /// The scene.
+    pub scene: PathBuf,
+    /// The design's points, then those of the reference.
+    pub(super) points: Vec<Point>,
+    /// How many are the design's.
+    pub(super) designed: usize,
+    keys: Vec<String>,
+}
+
+impl Plan {
+    /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
+    pub fn read(file: &Path, only: Option<usize>) -> Result<Plan> {
+        let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
+        let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
+        let scene = source.folder().join(&study.scene);
+        if !scene.exists() {
+            let cure = format!("files are named relative to {}", source.folder().display());
+            return Err(source.refuse(&["scene"], format!("there is no {}", scene.display()), cure));
+        }
+        if study.repeat == 0 {
+            return Err(source.refuse(&["repeat"], "0 runs of every point", "run it once or more"));
+        }
+        let mut points = points(&study, &source)?;
+        let designed = points.len();
+        if let Some(reference) = &study.reference {
+            if !(reference.ratio > 1.0 && reference.ratio.is_finite()) {
+                let what = format!("a ratio of {}", reference.ratio);
+                return Err(source.refuse(&["reference", "ratio"], what, "every run is finer than the last"));
+            }
+            for run in &reference.runs {
+                let mut settings = vec!["/output/fields=none".to_string()];
+                settings.extend(study.set.iter().chain(run).map(setting));
+                points.push(Point { values: vec![serde_json::Value::Null; study.axes.len()], settings });
+            }
+        }
+        let plain = scene::read(&scene, &[])?;
+        check_measures(&study, &source, &plain)?;
+        for point in &mut points {
+            point.settings.extend(probes(&study, &plain));
+        }
+        let wanted = |k: usize| only.is_none_or(|only| only == k);
+        let keys = points.iter().enumerate().map(|(k, point)| match wanted(k) {
+            true => scene::read(&scene, &point.settings).map(|scene| key(&study, point, &scene)),
+            false => Ok(String::new()),
+        });
+        let keys = keys.collect::<Result<Vec<String>>>()?;
+        Ok(Plan { name: name(file), study, scene, points, designed, keys })
+    }
+
+    /// Number of all points, those of the reference included.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Digest of all that decides a point that was checked.
+    pub(super) fn key(&self, point: usize) -> &str {
+        &self.keys[point]
+    }
+}
+
+/// Columns of the history for the probes of the measures.
+fn probes(study: &Study, scene: &Scene) -> Vec<String> {
+    let mut settings = Vec::new();
+    for (name, measure) in &study.measures {
+        for of in measure.columns() {
+            if !scene.output.history.contains_key(of) && !of.starts_with("reaction:") {
+                let column = column_of(name, of).replace('~', "~0").replace('/', "~1");
+                settings.push(format!("/output/history/{column}={of}"));
+            }
+        }
+    }
+    settings
+}
+
+fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
+    for (name, measure) in &study.measures {
+        for of in measure.columns() {
+            if scene.output.history.contains_key(of) || of.starts_with("reaction:") {
+                continue;
+            }
+            Probe::parse(of, scene)
+                .map_err(|(what, cure)| source.refuse(&["measures", name, "of"], what, cure))?;
+        }
+        if let Measure::Error { field, of, .. } = measure {
+            let known = match field {
+                Field::Displacement => scene.subdomains.contains_key(of),
+                _ => scene.entry(of).is_some(),
+            };
+            if !known {
+                let names = match field {
+                    Field::Displacement => scene.subdomains.keys().map(String::as_str).collect::<Vec<_>>(),
+                    _ => scene.interfaces.keys().map(String::as_str).collect(),
+                };
+                let cure = name_cure(of, names);
+                return Err(source.refuse(&["measures", name, "of"], format!("no \"{of}\""), cure));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Settings, measures, the scene's text and those of the files it names.
+fn key(study: &Study, point: &Point, scene: &Scene) -> String {
+    let mut hash = Sha256::new();
+    let mut add = |part: &[u8]| {
+        hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other
+        hash.update(part);
+    };
+    add(env!("CARGO_PKG_VERSION").as_bytes());
+    add(if study.process == Process::Own { b"own" } else { b"shared" });
+    add(&study.repeat.to_le_bytes());
+    add(serde_json::to_string(&study.measures).unwrap_or_default().as_bytes());
+    add(serde_json::to_string(scene).unwrap_or_default().as_bytes());
+    point.settings.iter().for_each(|setting| add(setting.as_bytes()));
+    for part in scene.subdomains.values() {
+        for file in part.geo.iter().chain(&part.msh) {
+            add(&std::fs::read(scene.source.folder().join(file)).unwrap_or_default());
+        }
+    }
+    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// `geo/strip/study.json` is "strip_study".
+fn name(file: &Path) -> String {
+    let stem = file.file_stem().map_or("study".into(), |stem| stem.to_string_lossy().into_owned());
+    let folder = std::path::absolute(file).ok();
+    let folder = folder.as_deref().and_then(Path::parent).and_then(Path::file_name);
+    folder.map_or(stem.clone(), |folder| format!("{}_{stem}", folder.to_string_lossy()))
+}

@@ -1,0 +1,157 @@
+//! One point: run in this process beside others, or in a process of its own.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use indexmap::IndexMap;
+
+use super::file::Process;
+use super::gauge::Gauge;
+use super::outcome::Outcome;
+use super::plan::Plan;
+use crate::error::{Error, Result};
+use crate::output::write_json;
+use crate::run::{self, Event, Options, Shared};
+
+/// How points are run.
+#[derive(Debug, Clone)]
+pub struct Means {
+    /// Where everything goes.
+    pub out: PathBuf,
+    /// The study's file, for processes of their own.
+    pub file: PathBuf,
+    /// The mesher and its time limit.
+    pub options: Options,
+    /// Points side by side.
+    pub jobs: usize,
+    /// Threads of every point.
+    pub threads: usize,
+}
+
+impl Means {
+    /// The folder of a point's results.
+    pub(super) fn folder(&self, point: usize) -> PathBuf {
+        self.out.join("points").join(format!("{point:04}"))
+    }
+
+    /// The file of a point's outcome.
+    pub(super) fn file(&self, point: usize) -> PathBuf {
+        self.out.join("points").join(format!("{point:04}.json"))
+    }
+
+    /// Where the meshes of all points are.
+    pub(super) fn meshes(&self) -> PathBuf {
+        self.out.join("mesh")
+    }
+}
+
+/// The outcome of a point that was run before, if nothing that decides it has changed.
+pub(super) fn earlier(plan: &Plan, means: &Means, point: usize) -> Option<Outcome> {
+    let text = std::fs::read_to_string(means.file(point)).ok()?;
+    let outcome: Outcome = serde_json::from_str(&text).ok()?;
+    (outcome.key == plan.key(point)).then_some(outcome)
+}
+
+/// Runs a point as often as the study says and keeps its outcome.
+pub(super) fn run_point(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Result<Outcome> {
+    let mut outcome: Option<Outcome> = None;
+    for repeat in 0..plan.study.repeat {
+        let once = match plan.study.process {
+            Process::Shared => run_once(plan, means, shared, point)?,
+            Process::Own => run_apart(means, point, repeat)?,
+        };
+        match &mut outcome {
+            None => outcome = Some(once),
+            Some(first) => {
+                first.seconds.extend(once.seconds);
+                first.stages.extend(once.stages);
+                first.peak_memory = first.peak_memory.max(once.peak_memory);
+            }
+        }
+        if outcome.as_ref().is_some_and(|outcome| !outcome.done()) {
+            break;
+        }
+    }
+    let outcome = outcome.ok_or_else(|| broken("a point was not run at all"))?;
+    write_json(&means.file(point), &outcome)?;
+    Ok(outcome)
+}
+
+/// One run in this process. What is wrong with the point is its outcome; what is wrong with the machine is an error.
+pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Result<Outcome> {
+    let settings = plan.points[point].settings.clone();
+    let options = Options {
+        scene: plan.scene.clone(),
+        out: Some(means.folder(point)),
+        settings: settings.clone(),
+        ..means.options.clone()
+    };
+    let start = Instant::now();
+    let (mut gauge, mut reused) = (Gauge::new(&plan.study.measures), Vec::new());
+    let mut listen = |event: Event| match event {
+        Event::Meshed { name, reused: true, .. } => reused.push(format!("mesh of {name}")),
+        Event::Reused(what) => reused.push(what.into()),
+        Event::Increment { row, totals, problem, state, .. } => gauge.look(row, totals, problem, state),
+        _ => {}
+    };
+    let done = run::run_sharing(&options, Some(shared), &mut listen);
+    let seconds = start.elapsed().as_secs_f64();
+    let (status, message, stages) = match done {
+        Ok(done) => {
+            let stages = done.clock.stages().iter().map(|&(name, seconds)| (name.to_string(), seconds));
+            ("done", String::new(), stages.collect())
+        }
+        Err(error) if error.exit_code() == 4 => return Err(error),
+        Err(error @ Error::NoEquilibrium { .. }) => ("stopped", error.to_string(), IndexMap::new()),
+        Err(error) => ("refused", error.to_string(), IndexMap::new()),
+    };
+    let known = |value: f64| value.is_finite().then_some(value);
+    let values = gauge.values().into_iter().map(|(name, value)| (name, known(value))).collect();
+    Ok(Outcome {
+        point,
+        key: plan.key(point).into(),
+        settings,
+        status: status.into(),
+        message,
+        values,
+        counts: gauge.counts.iter().map(|(name, value)| (name.to_string(), *value)).collect(),
+        strategy: gauge.strategy.into(),
+        seconds: vec![seconds],
+        stages: vec![stages],
+        peak_memory: None,
+        reused,
+    })
+}
+
+/// One run in a process of its own, timed from outside.
+fn run_apart(means: &Means, point: usize, repeat: usize) -> Result<Outcome> {
+    let program = std::env::current_exe().map_err(Error::io("find", "the program"))?;
+    let once = means.out.join("points").join(format!(".{point:04}-{repeat}.json"));
+    let mut command = Command::new(program);
+    command.arg("study").arg(&means.file).arg("--out").arg(&means.out);
+    command.arg("--gmsh").arg(&means.options.gmsh);
+    command.arg("--gmsh-limit").arg(means.options.gmsh_limit.as_secs().to_string());
+    command.args(["--point", &point.to_string(), "--threads", &means.threads.to_string(), "--once"]);
+    command.arg(&once).stdin(Stdio::null()).stdout(Stdio::null());
+    let start = Instant::now();
+    let output = command.output().map_err(Error::io("start", "a process of a point"))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let read = read(&once);
+    // it may not be there, and is of no use any more if it is
+    let _ = std::fs::remove_file(&once);
+    let mut outcome = read.ok_or_else(|| {
+        let said = String::from_utf8_lossy(&output.stderr);
+        broken(&format!("point {point} ended with {}: {}", output.status, said.trim()))
+    })?;
+    outcome.seconds = vec![seconds];
+    Ok(outcome)
+}
+
+fn read(file: &Path) -> Option<Outcome> {
+    serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()
+}
+
+pub(super) fn broken(what: &str) -> Error {
+    Error::Program { program: "midplane".into(), what: what.into(), cure: "run it again".into() }
+}
