@@ -14,6 +14,8 @@
 
 DefineConstant[ edges = {24, Name "Edges along the cut"} ];
 DefineConstant[ rows  = {12, Name "Elements from left to right"} ];
+DefineConstant[ order     = {2, Name "Order of the elements, 1 or 2"} ];
+DefineConstant[ triangles = {0, Name "Triangles, 1, or quadrilaterals, 0"} ];
 
 Point(1) = {0, 0, 0};
 Point(2) = {24, 22, 0};
@@ -30,8 +32,10 @@ Plane Surface(1) = {1};
 Transfinite Curve {2, 4} = edges + 1;
 Transfinite Curve {1, 3} = rows + 1;
 Transfinite Surface {1};
-Recombine Surface {1};
-Mesh.ElementOrder = 2;
+If (!triangles)
+  Recombine Surface {1};
+EndIf
+Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1; // Q8
 
 Physical Curve("lower") = {1};

@@ -13,6 +13,8 @@
 
 DefineConstant[ edges = {40, Name "Edges along the cut, an even number"} ];
 DefineConstant[ rows  = {20, Name "Elements from left to right"} ];
+DefineConstant[ order     = {2, Name "Order of the elements, 1 or 2"} ];
+DefineConstant[ triangles = {0, Name "Triangles, 1, or quadrilaterals, 0"} ];
 
 Point(1) = {24, 22, 0};
 Point(2) = {48, 44, 0};
@@ -32,8 +34,10 @@ Transfinite Curve {4} = edges + 1;
 Transfinite Curve {2, 5} = edges / 2 + 1;
 Transfinite Curve {1, 3} = rows + 1;
 Transfinite Surface {1} = {1, 2, 4, 3};
-Recombine Surface {1};
-Mesh.ElementOrder = 2;
+If (!triangles)
+  Recombine Surface {1};
+EndIf
+Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1; // Q8
 
 Physical Point("tip") = {5};

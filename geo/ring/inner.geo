@@ -10,12 +10,14 @@
 //                +----+-- x
 //                 bottom
 //
-// Physical groups: inner, outer, left, bottom (curves), body (surface).
+// Physical groups: bore (point), inner, outer, left, bottom (curves), body (surface).
 
 DefineConstant[ inside  = {1.0, Name "Inner radius [m]"} ];
 DefineConstant[ outside = {1.5, Name "Outer radius [m]"} ];
 DefineConstant[ edges   = {6, Name "Edges along the joint"} ];
 DefineConstant[ rows    = {2, Name "Rows of elements"} ];
+DefineConstant[ order     = {2, Name "Order of the elements, 1 or 2"} ];
+DefineConstant[ triangles = {0, Name "Triangles, 1, or quadrilaterals, 0"} ];
 
 Point(1) = {0, 0, 0};
 Point(2) = {inside, 0, 0};
@@ -33,10 +35,13 @@ Plane Surface(1) = {1};
 Transfinite Curve {2, 4} = edges + 1;
 Transfinite Curve {1, 3} = rows + 1;
 Transfinite Surface {1};
-Recombine Surface {1};
-Mesh.ElementOrder = 2;
+If (!triangles)
+  Recombine Surface {1};
+EndIf
+Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1; // Q8
 
+Physical Point("bore") = {2};
 Physical Curve("bottom") = {1};
 Physical Curve("outer") = {2};
 Physical Curve("left") = {3};

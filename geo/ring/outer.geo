@@ -16,6 +16,8 @@ DefineConstant[ inside  = {1.5, Name "Inner radius [m]"} ];
 DefineConstant[ outside = {2.0, Name "Outer radius [m]"} ];
 DefineConstant[ edges   = {9, Name "Edges along the joint"} ];
 DefineConstant[ rows    = {2, Name "Rows of elements"} ];
+DefineConstant[ order     = {2, Name "Order of the elements, 1 or 2"} ];
+DefineConstant[ triangles = {0, Name "Triangles, 1, or quadrilaterals, 0"} ];
 
 Point(1) = {0, 0, 0};
 Point(2) = {inside, 0, 0};
@@ -33,8 +35,10 @@ Plane Surface(1) = {1};
 Transfinite Curve {2, 4} = edges + 1;
 Transfinite Curve {1, 3} = rows + 1;
 Transfinite Surface {1};
-Recombine Surface {1};
-Mesh.ElementOrder = 2;
+If (!triangles)
+  Recombine Surface {1};
+EndIf
+Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1; // Q8
 
 Physical Curve("bottom") = {1};

@@ -179,6 +179,9 @@ pub(super) struct Common {
     /// Replace a value of the scene
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
+    /// Preset of density, order, tolerances and increments
+    #[arg(long, value_name = "PRESET", value_parser = ["draft", "normal", "fine"])]
+    pub accuracy: Option<String>,
     /// The mesher
     #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
     pub gmsh: PathBuf,
@@ -192,10 +195,11 @@ pub(super) struct Common {
 
 impl Common {
     pub(super) fn options(&self) -> Options {
+        let accuracy = self.accuracy.iter().map(|preset| format!("accuracy={preset}"));
         Options {
             scene: self.scene.clone(),
             out: self.out.clone(),
-            settings: self.settings.clone(),
+            settings: accuracy.chain(self.settings.iter().cloned()).collect(),
             gmsh: self.gmsh.clone(),
             gmsh_limit: Duration::from_secs(self.gmsh_limit),
         }

@@ -43,6 +43,12 @@ pub fn mesh_all(gmsh: &Gmsh, cache: &Path, jobs: &[Job]) -> Result<Vec<Meshed>> 
     all.into_iter().collect()
 }
 
+/// Names that a .geo declares with DefineConstant, and their values where those are plain numbers.
+pub fn parameters(geo: &Path) -> Result<Vec<(String, Option<f64>)>> {
+    let geo = std::path::absolute(geo).map_err(Error::io("read", geo))?;
+    Ok(Sources::read(&geo)?.declared)
+}
+
 fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     let geo = std::path::absolute(&job.geo).map_err(Error::io("read", &job.geo))?;
     let sources = Sources::read(&geo)?;

@@ -25,7 +25,7 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 
-pub use cache::{Job, Meshed, mesh_all};
+pub use cache::{Job, Meshed, mesh_all, parameters};
 pub use gmsh::Gmsh;
 pub use read::{from_bytes, read};
 pub use touch::{Touch, touching};

@@ -13,8 +13,8 @@ pub(super) struct Sources {
     pub(super) closed: bool,
     /// Every name in it.
     mentioned: Vec<String>,
-    /// Names it declares with DefineConstant.
-    declared: Vec<String>,
+    /// Names it declares with DefineConstant, and their values where those are plain numbers.
+    pub(super) declared: Vec<(String, Option<f64>)>,
     /// Names it assigns a value.
     assigned: Vec<String>,
 }
@@ -51,7 +51,7 @@ impl Sources {
     /// Refuses a parameter that this .geo would not listen to.
     pub(super) fn accepts(&self, geo: &Path, parameter: &str) -> Result<()> {
         let has = |names: &[String]| names.iter().any(|name| name == parameter);
-        let declared = || name_cure(parameter, self.declared.iter().map(String::as_str));
+        let declared = || name_cure(parameter, self.declared.iter().map(|(name, _)| name.as_str()));
         let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if parameter.is_empty() || !parameter.chars().all(word) || !has(&self.mentioned) {
             return Err(Error::mesh(
@@ -60,7 +60,8 @@ impl Sources {
                 format!("of the names it declares with DefineConstant {}", declared()),
             ));
         }
-        if has(&self.assigned) && !has(&self.declared) && !self.mentions("Exists") {
+        let is_declared = self.declared.iter().any(|(name, _)| name == parameter);
+        if has(&self.assigned) && !is_declared && !self.mentions("Exists") {
             return Err(Error::mesh(
                 geo,
                 format!("sets \"{parameter}\" itself, whatever value it is given"),
@@ -112,10 +113,12 @@ impl Sources {
             }
             self.mentioned.push(name.clone());
         }
-        for names in [&mut self.mentioned, &mut self.declared, &mut self.assigned] {
+        for names in [&mut self.mentioned, &mut self.assigned] {
             let mut seen = std::collections::HashSet::new();
             names.retain(|name| seen.insert(name.clone()));
         }
+        let mut seen = std::collections::HashSet::new();
+        self.declared.retain(|(name, _)| seen.insert(name.clone()));
     }
 }
 
@@ -131,11 +134,11 @@ fn file_argument(tokens: &[Token]) -> Option<&str> {
     }
 }
 
-/// Names declared by `[ a = 1, b = {2, Name "B"}, c ]`.
-fn declared(tokens: &[Token]) -> Vec<String> {
+/// Names declared by `[ a = 1, b = {2, Name "B"}, c ]`, with their numbers.
+fn declared(tokens: &[Token]) -> Vec<(String, Option<f64>)> {
     let mut names = Vec::new();
     let (mut depth, mut fresh) = (0, false);
-    for token in tokens {
+    for (i, token) in tokens.iter().enumerate() {
         match token {
             Token::Sign('[' | '{' | '(') => {
                 depth += 1;
@@ -150,7 +153,7 @@ fn declared(tokens: &[Token]) -> Vec<String> {
             Token::Sign(',') => fresh = depth == 1,
             Token::Sign(';') if depth == 0 => break,
             Token::Name(name) if fresh => {
-                names.push(name.clone());
+                names.push((name.clone(), number(&tokens[i + 1..])));
                 fresh = false;
             }
             _ => fresh = false,
@@ -159,14 +162,29 @@ fn declared(tokens: &[Token]) -> Vec<String> {
     names
 }
 
+/// The number of `= 1`, `= {2, …}` or `= -3`, if nothing is done to it.
+fn number(tokens: &[Token]) -> Option<f64> {
+    let [Token::Sign('='), rest @ ..] = tokens else { return None };
+    let rest = if let [Token::Sign('{'), rest @ ..] = rest { rest } else { rest };
+    let (sign, rest) = match rest {
+        [Token::Sign('-'), rest @ ..] => (-1.0, rest),
+        rest => (1.0, rest),
+    };
+    match rest {
+        [Token::Number(text), Token::Sign(',' | ']' | '}'), ..] => Some(sign * text.parse::<f64>().ok()?),
+        _ => None,
+    }
+}
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Token {
     Name(String),
     Text(String),
+    Number(String),
     Sign(char),
 }
 
-/// Names, strings and signs, without comments and numbers. Bytes that are not UTF-8 stand for themselves as signs.
+/// Names, strings, numbers and signs, without comments. Bytes that are not UTF-8 stand for themselves as signs.
 fn tokens(content: &[u8]) -> Vec<Token> {
     let text = String::from_utf8_lossy(content);
     let mut tokens = Vec::new();
@@ -185,8 +203,16 @@ fn tokens(content: &[u8]) -> Vec<Token> {
             tokens.push(Token::Name(rest[..end].to_string()));
             end
         } else if c.is_ascii_digit() {
-            // 1e-3 holds no name
-            rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).unwrap_or(rest.len())
+            // 1e-3 holds no name and one number
+            let word = |text: &str| {
+                text.find(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).unwrap_or(text.len())
+            };
+            let mut end = word(rest);
+            if rest[..end].ends_with(['e', 'E']) && rest[end..].starts_with(['+', '-']) {
+                end += 1 + word(&rest[end + 1..]);
+            }
+            tokens.push(Token::Number(rest[..end].to_string()));
+            end
         } else {
             if !c.is_whitespace() {
                 tokens.push(Token::Sign(c));
@@ -214,11 +240,20 @@ mod tests {
         let geo = of(
             "DefineConstant[ n = {4, Name \"Param/n\", Choices{1, 2}}, length = 2*n, open ]; Point(1) = {0, 0, 0, lc};",
         );
-        assert_eq!(geo.declared, ["n", "length", "open"]);
+        let names: Vec<&str> = geo.declared.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["n", "length", "open"]);
         assert!(geo.accepts(Path::new("a.geo"), "n").is_ok());
         assert!(geo.accepts(Path::new("a.geo"), "lc").is_ok());
         let message = geo.accepts(Path::new("a.geo"), "lenght").unwrap_err().to_string();
         assert!(message.contains("Did you mean \"length\"?"), "{message}");
+    }
+
+    #[test]
+    fn plain_numbers_of_declared_constants_are_read() {
+        let geo =
+            of("DefineConstant[ n = {12, Min 1}, a = 1.5e-3, b = -2, c = 2*n, d = {n, Name \"d\"}, e ];");
+        let numbers: Vec<Option<f64>> = geo.declared.iter().map(|(_, value)| *value).collect();
+        assert_eq!(numbers, [Some(12.0), Some(1.5e-3), Some(-2.0), None, None, None]);
     }
 
     #[test]

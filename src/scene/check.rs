@@ -26,6 +26,15 @@ impl Scene {
         for (i, step) in self.steps.iter().enumerate() {
             self.check_step(&i.to_string(), step)?;
         }
+        for (i, name) in self.density.iter().enumerate() {
+            let (body, parameter) = split_group(name);
+            if parameter.is_none() || !self.subdomains.contains_key(body) {
+                let what = format!("\"{name}\" is no parameter of a subdomain");
+                let cure = name_cure(body, self.subdomains.keys().map(String::as_str));
+                let cure = format!("write <subdomain>.<parameter>; {cure}");
+                return Err(self.source.refuse(&["density", &i.to_string()], what, cure));
+            }
+        }
         for (name, text) in &self.output.history {
             let path = ["output", "history", name];
             Probe::parse(text, self).map_err(|(what, cure)| self.source.refuse(&path, what, cure))?;

@@ -3,6 +3,7 @@
 //! A scene names; it never numbers. Groups are written `<subdomain>.<physical group>`, `<subdomain>` alone is the
 //! whole body. Units are the user's own, as long as they are consistent.
 
+mod accuracy;
 mod check;
 pub mod expression;
 mod functions;
@@ -17,6 +18,7 @@ mod solution;
 mod source;
 mod value;
 
+pub use accuracy::{Accuracy, Preset};
 pub use expression::{Place, Variable};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
 pub use read::{document, parse, read};
@@ -56,6 +58,12 @@ pub struct Scene {
     /// How equilibrium is found where a joint is not elastic.
     #[serde(default)]
     pub solution: Solution,
+    /// A preset of the knobs that trade speed for accuracy; what the scene states stays. Absent: the scene as it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// Parameters of `.geo` files that `accuracy` multiplies, `<subdomain>.<name>`: counts, of which more is finer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub density: Vec<String>,
     /// What is written.
     #[serde(default)]
     pub output: Output,

@@ -6,6 +6,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
+use super::accuracy::{self, Accuracy};
 use super::{Scene, Source, expression::Expression, set};
 use crate::error::{At, Error, Result, name_cure};
 
@@ -18,8 +19,17 @@ pub fn read(path: &Path, settings: &[String]) -> Result<Scene> {
 
 /// Reads a scene from its text; `file` is for messages and for the files it names.
 pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
-    let set = |value: &mut Value, source: &Source| {
+    let set_all = |value: &mut Value, source: &Source| {
         settings.iter().try_for_each(|setting| set::apply(value, setting, &source.file))
+    };
+    let set = |value: &mut Value, source: &Source| {
+        // the preset may come by a setting, and settings come on top of it
+        let mut wanted = value.clone();
+        set_all(&mut wanted, source)?;
+        if let Ok(accuracy) = serde_json::from_value::<Accuracy>(wanted["accuracy"].take()) {
+            accuracy::apply(value, source, accuracy)?;
+        }
+        set_all(value, source)
     };
     let (mut scene, source) = document::<Scene>(file, text, "a scene", set)?;
     scene.source = source;
