@@ -14,6 +14,8 @@ use crate::solver::{
     Respond, Settings, Solution,
 };
 
+/// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
+const NEAR: f64 = 1e-3;
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
 
@@ -156,13 +158,16 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         if !target.iter().all(|value| value.is_finite()) {
             return Err(Failure::Unusable(f64::INFINITY));
         }
-        let extrapolate = |(now, before): (&f64, &f64)| now + ahead * (now - before);
-        let mut start: Vec<f64> = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
+        let onwards = |part: f64| -> Vec<f64> {
+            let along = |(now, before): (&f64, &f64)| now + part * ahead * (now - before);
+            self.unknowns.iter().zip(&self.before).map(along).collect()
+        };
+        let (near, mut start) = (onwards(NEAR), onwards(1.0));
         let (mut residuals, mut passes) = (Vec::new(), 0);
         // the first increment of a step shows whether displacements are needed against the rounding of the others
         let complete = complete || self.first || !self.trusted;
         let (iterate, solution) = loop {
-            let starts = [&self.unknowns, &start];
+            let starts = [&near, &start];
             let iterate = newton.solve(form, &laws, &starts, &target, self.settings);
             let iterate = iterate.map_err(Failure::Unconverged)?;
             residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);

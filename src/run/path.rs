@@ -24,7 +24,10 @@ const SMALLEST: usize = 20;
 /// `TRACTIONS` times an increment's part may change.
 const WIDE: f64 = 2.0;
 const TRACTIONS: f64 = 4.0;
-/// Before anything is stored an increment that dissipates is divided down to this part.
+/// An increment of the load level that dissipates more than so many times what the last one makes expect has leapt to another
+/// branch.
+const LEAP: f64 = 4.0;
+/// The first increment that dissipates is divided down to this part, to begin where it does.
 const LEAST: f64 = 1e-3;
 /// Joints that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
@@ -37,7 +40,7 @@ type Step = std::result::Result<usize, Unconverged>;
 /// Where the path stands.
 struct Standing {
     level: f64,
-    /// The last change of the load level, and the energy that it took.
+    /// The last change of the load level, and the energy that it dissipated.
     change: f64,
     spent: f64,
     /// Energy of the next step.
@@ -55,6 +58,7 @@ impl<'a> Course<'a, '_> {
         self.state.open(None);
         let part = 1.0 / stage.increments as f64;
         let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, most: 0.0 };
+        let mut rising = 0.0;
         let mut passed = [(self.state.dissipated, 0.0); 3];
         for number in 1..=MOST * stage.increments {
             self.stage("solve");
@@ -72,10 +76,10 @@ impl<'a> Course<'a, '_> {
                 }
             };
             passed = [passed[1], passed[2], (self.state.dissipated, at.level)];
-            if at.change * (at.level - before) < 0.0 {
+            if rising * (at.level - before) < 0.0 {
                 self.totals.turns.push((self.totals.increments, stage.name.clone(), vertex(passed)));
             }
-            at.change = at.level - before;
+            rising = at.level - before;
             let last = at.level >= 1.0;
             self.row(Place { number, load_factor: at.level, iterations, last, ..self.place(step, stage) })?;
             if last {
@@ -98,13 +102,14 @@ impl<'a> Course<'a, '_> {
         if let Some(iterations) = self.by_load(start, at, reached, 0.0)? {
             return Ok(Ok(iterations));
         }
-        let mut width = part;
-        while self.state.stored <= 0.0 && width > LEAST * part {
-            // no energy yet to compare with: a smaller increment
+        // up to where something begins to dissipate: what follows is compared with the state there
+        let (begin, mut width, mut all) = (at.level, part, 0);
+        while width > LEAST * part {
             width *= 0.5;
-            if let Some(iterations) = self.by_load(start, at, at.level + width, 0.0)? {
-                return Ok(Ok(iterations));
-            }
+            all += self.by_load(start, at, at.level + width, 0.0)?.unwrap_or(0);
+        }
+        if at.level - begin > 2.0 * LEAST * part {
+            return Ok(Ok(all));
         }
         let mut amount = FIRST * self.state.stored;
         let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
@@ -126,9 +131,10 @@ impl<'a> Course<'a, '_> {
     /// The next step on the path, ending at the end of the load exactly.
     fn along(&mut self, start: &Start, ramp: &Ramp, at: &mut Standing, part: f64) -> Result<Step> {
         if at.change > 0.0 {
-            // the path rises: the load level may lead, as long as it spends no more than the path would
+            // the path rises: the load level may lead, as long as it jumps to no other branch
             let reached = if at.level + 1.001 * part >= 1.0 { 1.0 } else { at.level + part };
-            if let Some(iterations) = self.by_load(start, at, reached, at.amount)? {
+            let expected = at.spent * (reached - at.level) / at.change;
+            if let Some(iterations) = self.by_load(start, at, reached, LEAP * expected)? {
                 return Ok(Ok(iterations));
             }
         }
@@ -143,7 +149,7 @@ impl<'a> Course<'a, '_> {
                     let far = far.max(self.far(at, &found) / (TRACTIONS * part));
                     if far <= WIDE {
                         let iterations = found.iterations;
-                        let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 1.5);
+                        let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
                         self.take(start, found, at, level, amount)?;
                         at.amount = amount * easier.min(1.0 / far);
                         return Ok(Ok(iterations));
@@ -184,9 +190,7 @@ impl<'a> Course<'a, '_> {
         let ahead = if at.change > 0.0 { (level - at.level) / at.change } else { 0.0 };
         let Ok(found) = self.engine.solve(&self.state, &load, ahead, true) else { return Ok(None) };
         let spent = State::dissipation(self.problem, &found);
-        // a jump to another branch is no increment
-        let far = self.far(at, &found);
-        if spent > amount || spent > 0.0 && far > WIDE * TRACTIONS * (level - at.level) {
+        if spent > amount {
             return Ok(None);
         }
         self.take(start, found, at, level, spent).map(Some)
@@ -204,7 +208,7 @@ impl<'a> Course<'a, '_> {
         let iterations = found.iterations;
         self.engine.accept();
         self.state.accept(self.problem, found, start.at(level)?);
-        (at.level, at.spent) = (level, spent);
+        (at.change, at.level, at.spent) = (level - at.level, level, spent);
         if spent > 0.0 {
             at.amount = spent;
         }
