@@ -120,6 +120,27 @@ bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/
 	python3 benches/table.py docs/BENCH.md $(BENCHED)
 	mkdir -p docs/bench && cp $(BENCHED) docs/bench/
 
+TRADE := $(addprefix pipeline/trade_,scenes.py front.py extras.py machine.py)
+
+trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, 40 minutes: results/trade/trade.html
+
+results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE
+	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade
+	$(PYTHON) pipeline/trade_page.py results/trade/trade.json
+	$(PYTHON) pipeline/trade_check.py $@
+
+trade-full:       ## the same with 64 points of the hypercube and 7 repeats
+	$(MAKE) trade FULL=1
+
+trade-quick: $(MIDPLANE) $(VENV)  ## the same on four scenes with coarse meshes, in 3 minutes
+	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh --form reduced -o results/trade-quick
+	$(PYTHON) pipeline/trade_page.py results/trade-quick/trade.json
+	$(PYTHON) pipeline/trade_check.py results/trade-quick/trade.html
+
+trade-docs: $(VENV)  ## put what `make trade` has measured into docs/trade/ and the README
+	$(PYTHON) pipeline/trade_page.py results/trade/trade.json -o docs/trade
+	$(PYTHON) pipeline/trade_docs.py results/trade docs/trade README.md
+
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
 	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test example1 --test patch --test round --test verify
@@ -153,4 +174,7 @@ help:             ## this list
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 18
 
-.PHONY: all tools build test bench bench-quick bench-peers bench-docs law verify lint docs clean help
+# what depends on it is made whenever it is asked for
+.FORCE:
+
+.PHONY: all tools build test trade trade-full trade-quick trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

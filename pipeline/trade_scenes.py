@@ -1,0 +1,229 @@
+"""The scenes of `make trade`: what is measured, how densities and elements are set, which knobs are swept.
+
+Every scene has two sides, A and B, with counts per side that scale with its density; a density of 1 is the scene as its
+files have it. `ratio` is edges of A over edges of B; where it changes, their product stays."""
+
+import math
+from dataclasses import dataclass, field
+
+ELEMENTS = {"T3": (1, 1), "Q4": (1, 0), "T6": (2, 1), "Q8": (2, 0)}
+RATIOS = {"own": None, "1:1": 1.0, "2:3": 2 / 3, "1:4": 0.25, "1:10": 0.1}
+
+
+@dataclass
+class Scene:
+    """A scene of the campaign."""
+
+    name: str
+    folder: str
+    case: str
+    joint: str
+    sides: tuple  # names of the subdomains A and B
+    counts: tuple  # per side: parameter -> value in its .geo
+    measures: dict
+    errors: tuple  # the measures that decide: the largest of their errors is the error of a run
+    densities: tuple  # levels, 1 is that of the scene's own files
+    settings: dict = field(default_factory=dict)
+    knobs: dict = field(default_factory=dict)  # further knobs: name -> {label: settings}
+    floor: float = 0.0  # what the reference is uncertain by, relative
+    nonlinear: bool = False
+    steps: tuple = ()  # (key, increments in the scene's file) of the steps that have several
+    even: tuple = ()  # parameters that must be even
+    plotted: tuple = ()  # curves: (title, x column, y column) of the history
+
+
+def rounded(value, even):
+    step = 2 if even else 1
+    return max(step, step * round(value / step))
+
+
+def mesh(scene, density=1.0, ratio="own", element="Q8"):
+    """Settings of a mesh."""
+    order, triangles = ELEMENTS[element]
+    own = scene.counts[0]["edges"] / scene.counts[1]["edges"]
+    factor = 1.0 if RATIOS[ratio] is None else math.sqrt(RATIOS[ratio] / own)
+    settings = {}
+    for side, counts, of_side in zip(scene.sides, scene.counts, (factor, 1 / factor)):
+        for name, count in counts.items():
+            value = rounded(count * density * of_side, f"{side}.{name}" in scene.even)
+            settings[f"subdomains.{side}.parameters.{name}"] = value
+        settings[f"subdomains.{side}.parameters.order"] = order
+        settings[f"subdomains.{side}.parameters.triangles"] = triangles
+    return settings
+
+
+def coupling(scene, kind, quadrature="gauss"):
+    return {f"interfaces.{scene.joint}.coupling": kind, f"interfaces.{scene.joint}.quadrature": quadrature}
+
+
+def knobs(scene):
+    """All knobs of a scene: name -> {label: settings}; the first label of each is the reference setting."""
+    coarse_to_fine = {f"{d:g}": d for d in scene.densities}
+    table = {
+        "density": coarse_to_fine,
+        "element": {name: name for name in ELEMENTS},
+        "ratio": {name: name for name in RATIOS},
+        "coupling": {
+            "projected": coupling(scene, "projected"),
+            "pointwise": coupling(scene, "pointwise"),
+            "projected, lobatto": coupling(scene, "projected", "lobatto"),
+            "pointwise, lobatto": coupling(scene, "pointwise", "lobatto"),
+        },
+        "output": {
+            "last": {"output.fields": "last"},
+            "none": {"output.fields": "none"},
+            "every": {"output.fields": "every"},
+        },
+        "strategy": {
+            "auto": {"solution.strategy": "auto"},
+            "condensed": {"solution.strategy": "condensed"},
+            "plain": {"solution.strategy": "plain"},
+        },
+    }
+    if scene.nonlinear:
+        table["tolerance"] = {t: {"solution.tolerance": float(t)} for t in ("1e-8", "1e-3", "1e-4", "1e-6", "1e-10", "1e-12")}
+        factors = {"1": 1, "0.125": 0.125, "0.25": 0.25, "0.5": 0.5, "2": 2, "4": 4}
+        increments = lambda factor: {key: max(1, math.ceil(n * factor)) for key, n in scene.steps}
+        table["increments"] = {label: increments(factor) for label, factor in factors.items()}
+        table["tangent"] = {name: {"solution.tangent": name} for name in ("consistent", "initial")}
+    return table | scene.knobs
+
+
+REFERENCE = {"density": "1", "element": "Q8", "ratio": "own"}
+
+
+def settings(scene, labels):
+    """The settings of labels {knob: label}; knobs that are not named are at their reference."""
+    table = knobs(scene)
+    chosen = {name: REFERENCE.get(name, next(iter(values))) for name, values in table.items()} | labels
+    result = dict(scene.settings)
+    result |= mesh(scene, table["density"][chosen["density"]], chosen["ratio"], chosen["element"])
+    for name, label in chosen.items():
+        if name not in REFERENCE:
+            result |= table[name][label]
+    return result
+
+
+def last(of, reference):
+    return {"take": "last", "of": of, "reference": reference}
+
+
+STRIP = Scene(
+    name="strip",
+    folder="geo/strip",
+    case="smooth: two layers under a harmonic pressure",
+    joint="joint",
+    sides=("lower", "upper"),
+    counts=({"edges": 8, "rows": 6}, {"edges": 12, "rows": 7}),
+    densities=(0.25, 0.5, 1, 2, 4, 8),
+    measures={
+        "crest": last("crest", -0.000713658366),
+        "energy": last("stored", 0.0008920729575),
+        "traction": {
+            "take": "error",
+            "field": "traction",
+            "of": "joint",
+            "exact": ["-2.406874455*cos(pi*x)", "1.170396232*sin(pi*x)"],
+        },
+    },
+    errors=("crest", "energy"),
+    floor=5e-10,
+)
+
+COOK = Scene(
+    name="cook",
+    folder="geo/cook",
+    case="corner: Cook's membrane with a cut",
+    joint="cut",
+    sides=("left", "right"),
+    counts=({"edges": 24, "rows": 12}, {"edges": 40, "rows": 20}),
+    densities=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
+    measures={"tip": last("tip", 27.588303311771824), "energy": last("stored", 13.830648685)},
+    errors=("tip", "energy"),
+    floor=1e-6,
+    even=("right.edges",),
+)
+
+RING = Scene(
+    name="ring",
+    folder="geo/ring",
+    case="curved: two rings under pressure",
+    joint="joint",
+    sides=("inner", "outer"),
+    counts=({"edges": 6, "rows": 2}, {"edges": 9, "rows": 2}),
+    densities=(0.5, 1, 2, 4, 8),
+    measures={
+        "widening": last("inner.bore.displacement_x", 0.0007871783296),
+        "energy": last("energy.stored", 0.5 * 10.0 * 0.0007871783296 * math.pi / 2),
+        "traction": {"take": "error", "field": "traction", "of": "joint", "exact": [-1.083521445, 0]},
+    },
+    errors=("widening", "energy"),
+    floor=1e-9,
+)
+
+FRICTION = Scene(
+    name="friction",
+    folder="geo/friction_block",
+    case="friction: partial slip below a pushed block",
+    joint="joint",
+    sides=("base", "block"),
+    counts=({"edges": 40, "rows": 10}, {"edges": 31, "rows": 8}),
+    densities=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
+    # bodies so stiff that they deviate from rigid ones by 1e-6; a push of 1.6 MN
+    settings={
+        "materials.stiff.young": 4.0e8,
+        "/steps/1/load/block.left/traction": [3.2, 0.0],
+        "output.fields": "last",
+    },
+    measures={
+        "slide": last("slide", 0.0008101020514),
+        "traction": {
+            "take": "error",
+            "field": "traction",
+            "of": "joint",
+            "exact": ["-1.4-0.6*x", "min(0.8101020514,0.7+0.3*x)"],
+        },
+    },
+    errors=("slide", "traction"),
+    floor=2e-6,
+    nonlinear=True,
+    steps=(("/steps/1/increments", 18),),
+    plotted=(("push against slide", "slide", "push"),),
+)
+
+DCB = Scene(
+    name="dcb",
+    folder="geo/dcb",
+    case="cohesive peak load: double cantilever beam",
+    joint="joint",
+    sides=("lower", "upper"),
+    counts=({"edges": 210, "free": 30, "rows": 1}, {"edges": 140, "free": 30, "rows": 1}),
+    densities=(0.125, 0.25, 0.5, 1),
+    # under displacement control, to just beyond the peak
+    settings={
+        "output.fields": "last",
+        "/steps/0/control": "load",
+        "/steps/0/displace/upper.load/y": 3.4e-3,
+        "/steps/0/increments": 34,
+    },
+    measures={
+        "peak": {"take": "peak", "of": "reaction:upper.load:y", "reference": 0.002243647156},
+        "opening": {
+            "take": "at_peak",
+            "of": "opening",
+            "peak_of": "reaction:upper.load:y",
+            "reference": 0.002922298141,
+        },
+    },
+    errors=("peak",),
+    # two independent computations of the peak differ by so much
+    floor=6.4e-4,
+    nonlinear=True,
+    steps=(("/steps/0/increments", 34),),
+    knobs={
+        "law_tolerance": {t: {"interfaces.joint.law_tolerance": float(t)} for t in ("1e-4", "1e-2", "1e-3", "1e-6")},
+    },
+    plotted=(("load against opening", "opening", "reaction:upper.load:y"),),
+)
+
+SCENES = {scene.name: scene for scene in (STRIP, COOK, DCB, FRICTION, RING)}
