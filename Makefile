@@ -161,6 +161,9 @@ docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/law/shear.png docs/law_shear.png
 	cp results/shear/pictures/example2.png docs/shear_example2.png
 	cp results/shear_box/pictures/traction_joint.png docs/shear_box_traction.png
+	cp results/bar/pictures/history.png docs/bar_path.png
+	cp results/dcb/pictures/history.png docs/dcb_path.png
+	cp results/dcb/pictures/traction_joint.png docs/dcb_traction.png
 	cp results/friction_block/pictures/traction_joint.png docs/friction_block_traction.png
 
 clean:            ## remove everything made here: results, build, Python environment

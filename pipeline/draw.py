@@ -274,7 +274,7 @@ def main():
         others.append((label, Results(Path(folder), scene)))
     known = arguments.exact
     if arguments.solution:
-        solution = SOLUTIONS[arguments.solution](scene, results.subdomains)
+        solution = SOLUTIONS[arguments.solution](scene, results)
         known += [("", component, *curve) for component, curve in solution.traction.items()]
     for name in results.interfaces:
         entry = entry_of(scene, name)

@@ -1,7 +1,8 @@
 """Exact solutions of scenes of the gallery, from the numbers of the scene and the sizes of its meshes.
 
 Each is the closed form of a bar or of a rigid block: what the plane model must show where its own assumptions, a
-uniform stress, a stiff block, a thin bar, make it one.
+uniform stress, a stiff block, a thin bar, make it one. Where there is only a limit that the model comes close to, the
+curve bears its name.
 """
 
 from dataclasses import dataclass, field
@@ -19,6 +20,7 @@ class Exact:
     traction: dict  # "n" or "t" -> (distance along the joint, values)
     marks: list = field(default_factory=list)  # (column -> value, text)
     levels: list = field(default_factory=list)  # bounds: (value of the ordinate, text)
+    name: str = "exact"  # of the curve
 
 
 def sizes(mesh):
@@ -26,19 +28,23 @@ def sizes(mesh):
     return np.ptp(mesh.points[:, 0]), np.ptp(mesh.points[:, 1])
 
 
-def tension(scene, bodies):
-    """u = s (L/E + 1/K_N) - (G_I / chi_0) ln(s / chi_0) once s has reached chi_0: a bar in series with its crack."""
+def tension(scene, results):
+    """u = s (L/E + 1/K_N) - (G_I / chi_0) ln(s / chi_0) once s has reached chi_0: a bar in series with its crack.
+
+    Where L is so large that u falls first, the bar snaps back; it turns at s = G_I / (chi_0 (L/E + 1/K_N)).
+    """
     law = scene["interfaces"]["joint"]["law"]
     kn, chi, energy = (law[k] for k in ("normal_stiffness", "tensile_strength", "fracture_energy_i"))
-    length = sum(sizes(bodies[name])[1] for name in ("lower", "upper"))
+    length = sum(sizes(results.subdomains[name])[1] for name in ("lower", "upper"))
     compliance = length / scene["materials"]["rock"]["young"] + 1 / kn
     end = scene["steps"][-1]["displace"]["upper.top"]["y"]
 
     def stretch(s):
         return s * compliance - energy / chi * np.log(s / chi)
 
-    # where the end has been pulled to: stretch falls as s grows
-    low, high = chi * np.exp(-end * chi / energy), chi
+    # where the end has been pulled to: beyond the turning point stretch falls as s grows
+    turn = energy / (chi * compliance)
+    low, high = chi * np.exp(-end * chi / energy), min(chi, turn)
     for _ in range(200):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if stretch(middle) > end else (low, middle)
@@ -47,13 +53,39 @@ def tension(scene, bodies):
         "displacement": np.append(0.0, stretch(stress)),
         "stress": np.append(0.0, stress),
     }
-    width = sizes(bodies["lower"])[0]
+    width = sizes(results.subdomains["lower"])[0]
     traction = {"n": ([0.0, width], [low, low]), "t": ([0.0, width], [0.0, 0.0])}
-    peak = {"displacement": chi * compliance, "stress": chi}
-    return Exact(curve, traction, [(peak, f"tensile strength, {chi:g} MPa")])
+    marks = [({"displacement": chi * compliance, "stress": chi}, f"tensile strength, {chi:g} MPa")]
+    if turn < chi:
+        marks.append(({"displacement": stretch(turn), "stress": turn}, f"the path turns, {turn:.3f} MPa"))
+    return Exact(curve, traction, marks)
 
 
-def friction_block(scene, bodies):
+def dcb(scene, results):
+    """Energy release of two arms on springs: d = C(a) P, and P = sqrt(2 G_I / C'(a)) where the crack a grows.
+
+    C(a) = 2 ((b a)^3 + 3 (b a)^2 + 3 b a + 3/2) / (3 E I b^3) + 2 a / (5/6 mu h), b = (k / 4 E I)^(1/4) and
+    1/k = 1/(2 K_N) + h/(2 E). The limit of a brittle bond; a strength that is finite lowers and rounds its peak.
+    """
+    law, material = scene["interfaces"]["joint"]["law"], scene["materials"]["aluminium"]
+    young, energy = material["young"], law["fracture_energy_i"]
+    length, height = sizes(results.subdomains["lower"])
+    bending = young * height**3 / 12
+    springs = 1 / (1 / (2 * law["normal_stiffness"]) + height / (2 * young))
+    b = (springs / (4 * bending)) ** 0.25
+    shear = 2 / (5 / 6 * young / (2 * (1 + material["poisson"])) * height)
+    start = results.midplane("joint")[0][:, 0].min()
+
+    crack = np.linspace(start, start + 0.5 * (length - start), MANY)
+    behind = b * crack
+    compliance = 2 * (behind**3 + 3 * behind**2 + 3 * behind + 1.5) / (3 * bending * b**3) + shear * crack
+    slope = 2 * (behind + 1) ** 2 / (bending * b**2) + shear
+    force = np.sqrt(2 * energy / slope)
+    curve = {"opening": np.append(0.0, compliance * force), "force": np.append(0.0, force)}
+    return Exact(curve, {}, name="limit of a brittle bond")
+
+
+def friction_block(scene, results):
     """A rigid block of weight N, pushed by H at a height: p = N/L + 12 H height x / L^3, tau = min(K_T D, mu p).
 
     It slips behind a front at the fraction (1 + xi) / 2 of its length, where K_T D = mu p. Then
@@ -62,7 +94,7 @@ def friction_block(scene, bodies):
     law = scene["interfaces"]["joint"]["law"]
     kt, mu = law["tangential_stiffness"], law["friction_coefficient"]
     weight, push = (step["load"] for step in scene["steps"])
-    length, tall = sizes(bodies["block"])
+    length, tall = sizes(results.subdomains["block"])
     normal, height = weight["block.top"]["pressure"] * length, tall / 2
     end = push["block.left"]["traction"][0] * tall
 
@@ -87,14 +119,14 @@ def friction_block(scene, bodies):
     return Exact(curve, traction, [(first, "the heel slips")], [bound])
 
 
-def pull_bar(scene, bodies):
+def pull_bar(scene, results):
     """A thin bar on a rigid base, K_T until mu p: shear lag with b = sqrt(K_T / E h) over the length that sticks.
 
     With a length a at the pulled end slipping, F = t0 (tanh(b (L - a)) / b + a), t0 = mu p.
     """
     law = scene["interfaces"]["joint"]["law"]
     kt, mu = law["tangential_stiffness"], law["friction_coefficient"]
-    length, tall = sizes(bodies["bar"])
+    length, tall = sizes(results.subdomains["bar"])
     steps = scene["steps"]
     limit = mu * steps[0]["load"]["bar.top"]["pressure"]
     rigidity = scene["materials"]["steel"]["young"] * tall
@@ -119,4 +151,4 @@ def pull_bar(scene, bodies):
     return Exact(curve, traction, [(first, "the pulled end slips")], [bound])
 
 
-SOLUTIONS = {"tension": tension, "friction_block": friction_block, "pull_bar": pull_bar}
+SOLUTIONS = {"tension": tension, "dcb": dcb, "friction_block": friction_block, "pull_bar": pull_bar}

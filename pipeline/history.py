@@ -26,20 +26,31 @@ def read(folder):
 
 
 def deviation(run, solution, x, y):
-    """Largest distance of the run from the exact curve, over the largest exact value."""
-    values = np.interp(run[x], solution.history[x], solution.history[y])
-    return np.abs(run[y] - values).max() / np.abs(solution.history[y]).max()
+    """Largest distance of the run from the exact curve, each way over the largest exact value: the curve may turn back."""
+    size = [np.abs(solution.history[name]).max() for name in (x, y)]
+    curve = np.column_stack([solution.history[name] for name in (x, y)]) / size
+    points = np.column_stack([run[name] for name in (x, y)]) / size
+    start, along = curve[:-1], np.diff(curve, axis=0)
+    square = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
+
+    def distance(point):
+        foot = np.clip(((point - start) * along).sum(axis=1) / square, 0, 1)
+        return np.hypot(*(point - start - foot[:, None] * along).T).min()
+
+    return max(distance(point) for point in points)
 
 
 def draw_exact(axis, solution, x, y):
     """The exact curve and what happens on it."""
     curve = solution.history
-    axis.plot(curve[x], curve[y], color=PALE, linewidth=5, solid_capstyle="butt", label="exact", zorder=1)
+    axis.plot(curve[x], curve[y], color=PALE, linewidth=5, solid_capstyle="butt", label=solution.name, zorder=1)
     for place, text in solution.marks:
         here = (place[x], place[y])
         line = {"arrowstyle": "-", "color": GREY, "linewidth": 0.7, "shrinkB": 4}
         look = {"textcoords": "offset points", "va": "center", "color": "#555555", "arrowprops": line}
-        axis.annotate(text, here, xytext=(26, -16 if solution.levels else 0), **look)
+        side = -1 if here[0] > 0.7 * curve[x].max() else 1  # where there is room
+        offset = (26 * side, -16 if solution.levels else 0)
+        axis.annotate(text, here, xytext=offset, ha="left" if side > 0 else "right", **look)
 
 
 def draw_level(axis, value, text):
@@ -57,7 +68,7 @@ def draw(runs, solution, columns, levels, title, subtitle):
         draw_exact(axis, solution, x, y)
     for order, (label, run) in enumerate(runs):
         look = {"color": RUNS[order], "marker": "o", "markersize": 3.0, "zorder": 5 - order}
-        line = "none" if solution else "-"
+        line = "none" if solution and solution.name == "exact" else "-"
         axis.plot(run[x], run[y], linewidth=1.2, linestyle=line, label=label, clip_on=False, **look)
     axis.set(xlabel=x_label, ylabel=y_label, xlim=(0, max(run[x].max() for _, run in runs)))
     axis.set_ylim(bottom=min(0, *(run[y].min() for _, run in runs)))
@@ -109,9 +120,10 @@ def main():
     subtitle, solution = arguments.subtitle, None
     if arguments.solution:
         results = Results(arguments.results, scene)
-        solution = exact.SOLUTIONS[arguments.solution](scene, results.subdomains)
-        largest = deviation(runs[0][1], solution, arguments.x[0], arguments.y[0])
-        subtitle += f"; off the exact curve by {page.power_of_ten(largest)} of its height"
+        solution = exact.SOLUTIONS[arguments.solution](scene, results)
+        if solution.name == "exact":
+            largest = deviation(runs[0][1], solution, arguments.x[0], arguments.y[0])
+            subtitle += f"; off the exact curve by {page.power_of_ten(largest)} of its size"
         arguments.level += solution.levels
     columns = (arguments.x, arguments.y)
     figure = draw(runs, solution, columns, arguments.level, scene["title"], subtitle)
