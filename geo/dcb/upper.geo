@@ -16,6 +16,8 @@ DefineConstant[ height = {0.0015, Name "Height of the arm [m]"} ];
 DefineConstant[ edges  = {140, Name "Edges along the joint"} ];
 DefineConstant[ free   = {30, Name "Edges along the crack"} ];
 DefineConstant[ rows   = {1, Name "Rows of elements over half the height"} ];
+DefineConstant[ order     = {2, Name "Order of the elements, 1 or 2"} ];
+DefineConstant[ triangles = {0, Name "Triangles, 1, or quadrilaterals, 0"} ];
 
 Point(1) = {0, 0, 0};
 Point(2) = {crack, 0, 0};
@@ -44,8 +46,10 @@ Transfinite Curve {6, 7} = rows + 1;
 Transfinite Curve {3, 8} = 2 * rows + 1;
 Transfinite Surface {1} = {1, 2, 5, 6};
 Transfinite Surface {2};
-Recombine Surface {1, 2};
-Mesh.ElementOrder = 2;
+If (!triangles)
+  Recombine Surface {1, 2};
+EndIf
+Mesh.ElementOrder = order;
 Mesh.SecondOrderIncomplete = 1;
 
 Physical Point("load") = {7};
