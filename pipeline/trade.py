@@ -2,8 +2,8 @@
 
 Every scene is run around a reference setting one knob at a time, at a Latin hypercube over all knobs, at all combinations
 of the two knobs that move its front, and with the presets; the points of the front are repeated. Every run is a process
-of its own on one thread, with its meshes on disk; its time is that of the whole process without the mesher. What fails
-counts as infinitely wrong. `midplane study` does the runs, so an interrupted campaign goes on where it was."""
+of its own on one thread; its time is the processor's for the whole process, without the mesher, which does not count what
+others on the machine make it wait. What fails counts as infinitely wrong. `midplane study` does the runs, so an interrupted campaign goes on where it was."""
 
 import argparse
 import json
@@ -70,7 +70,8 @@ class Campaign:
     def row(self, phase, labels, point):
         """What the campaign keeps of a point."""
         stages = {name: statistics.median(s.get(name, 0.0) for s in point["stages"]) for name in point["stages"][0]}
-        run = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"])]
+        wall = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"])]
+        run = point["processor"] or wall
         errors = point["errors"]
         deciding = [errors[name] for name in self.scene.errors]
         failed = point["status"] != "done" or any(error is None for error in deciding)
@@ -84,6 +85,7 @@ class Campaign:
             "values": point["values"],
             "time": statistics.median(run),
             "times": run,
+            "wall": statistics.median(wall),
             "whole": point["seconds"],
             "stages": stages,
             "peak_memory": point["peak_memory"],
@@ -107,11 +109,18 @@ class Campaign:
     def sweep(self):
         """One knob at a time around the reference; returns {knob: ratio of its largest to its smallest error}."""
         table = self.table()
-        chosen = [{}] + [{name: label} for name, values in table.items() for label in values]
+        chosen, seen = [{}], [settings(self.scene, {})]
+        for name, values in table.items():
+            for label in values:
+                setting = settings(self.scene, {name: label})
+                # the reference has its label once, as a point of every knob
+                if setting not in seen:
+                    seen.append(setting)
+                    chosen.append({name: label})
         rows = self.add(self.study("sweep", [self.labelled(labels) for labels in chosen]))
         spans = {}
         for name in table:
-            errors = [max(r["error"], 1e-16) for r in rows if name in r["labels"] and r["error"] is not None]
+            errors = [max(r["error"], 1e-16) for r in rows if (name in r["labels"] or not r["labels"]) and r["error"] is not None]
             spans[name] = max(errors) / min(errors) if len(errors) > 1 else 1.0
         return spans
 

@@ -53,7 +53,7 @@ def main():
         print("no chromium or chrome: the page is not opened")
         return
     text = options.page.read_text()
-    outside = re.findall(r'(?:src|href)="(https?://[^"]+)"', text)
+    outside = re.findall(r'<(?:script|link|img|iframe)[^>]* (?:src|href)="(https?://[^"]+)"', text)
     probed = options.page.with_suffix(".probe.html")
     probed.write_text(text.replace("</body>", PROBE + "</body>"))
     done = run(browser, probed, "--dump-dom")

@@ -86,8 +86,7 @@ def penalty(program, out, form):
                     labels.append((element, name, coupling))
                     values.append(setting)
         stiffness = {f"interfaces.joint.law.{c}_stiffness": k for c in ("normal", "tangential")}
-        exact = [f"({normal!r})*cos(pi*x)", f"({shear!r})*sin(pi*x)"]
-        exact = [text.replace("np.float64(", "(") for text in exact]
+        exact = [f"({normal:.16e})*cos(pi*x)", f"({shear:.16e})*sin(pi*x)"]
         folder = out / "penalty" / f"1e{power}"
         content = {
             "scene": os.path.relpath(ROOT / "geo/strip/scene.json", folder),
@@ -98,7 +97,7 @@ def penalty(program, out, form):
             "repeat": 3,
         }
         for (element, name, coupling), point in zip(labels, study(program, folder, content, "--threads", "1")["points"]):
-            times = [s - stages.get("mesh", 0.0) for s, stages in zip(point["seconds"], point["stages"])]
+            times = point["processor"]
             rows.append(
                 {
                     "stiffness": 10.0**power,

@@ -43,7 +43,7 @@ def next_knob(rows, target):
     if here is None or there is None:
         return "none left", None
     names = [n for n in {**here["labels"], **there["labels"]} if here["labels"].get(n) != there["labels"].get(n)]
-    return ", ".join(names) or "none needed", there["time"] / here["time"]
+    return (", ".join(names), there["time"] / here["time"]) if names else ("none: this one has it", None)
 
 
 def common(scenes, target):

@@ -98,7 +98,7 @@ def point_rows(scene):
     for row in scene["points"]:
         cells = [row["phase"], label(row), row["status"], cell(row["error"])]
         cells += [cell(row["errors"].get(name)) for name in row["errors"]]
-        cells += [cell(row["time"]), cell(row["dofs"], 7), cell(row["iterations"], 7), cell(row["factor_entries"], 4)]
+        cells += [cell(row["time"]), cell(row["wall"]), cell(row["dofs"], 7), cell(row["iterations"], 7), cell(row["factor_entries"], 4)]
         cells += [cell(row["stages"].get(s)) for s in STAGES] + [cell((row["peak_memory"] or 0) / 1e6)]
         rows.append(cells)
         failed = row["error"] is None
@@ -147,7 +147,7 @@ def common_table(scenes):
         else:
             moved = [name for name, a, b in zip(("density", "element"), (density, element), following[0]) if a != b]
             knob = " and ".join(moved) + f" → {following[0][1]} × {following[0][0]}" if moved else "none: this one has it"
-        rows.append((f"{100 * target:g} %", f"{element}, density × {density}", f"{min(dofs)} to {max(dofs)}", f"{min(times):.1f} to {max(times):.1f}", knob))
+        rows.append((f"{100 * target:g} %", f"{element}, density × {density}", f"{min(dofs):.0f} to {max(dofs):.0f}", f"{min(times):.1f} to {max(times):.1f}", knob))
     return rows
 
 
@@ -176,7 +176,7 @@ def build(data, out):
     scenes = data["scenes"]
     page.heading("Speed against accuracy", 1)
     page.text(f"{m['date']}, {m['cpu']}, {m['cores']} cores, {m['midplane']} at {m['commit']}, gmsh {m['gmsh']}. Load average {data['load_before'][0]:.1f} before and {data['load_after'][0]:.1f} after; {data['minutes']:.0f} minutes, form \"{data['form']}\".", "note")
-    page.text("Every point is a process of its own on one thread, its meshes on disk. Time is that of the whole process less the mesher's stage; points on the front are repeated. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its setting.", "note")
+    page.text("Every point is a process of its own on one thread. Time is the processor's for the whole process without the mesher, which does not count what others on the machine make it wait; wall clock is beside it in the tables. Points on the front are repeated. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its setting.", "note")
     page.heading("What to choose")
     page.text("One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files.")
     page.table(["error", "setting", "dofs", "time / draft", "next knob"], common_table(scenes))
@@ -198,7 +198,7 @@ def build(data, out):
             page.figure(curve_figure(title, [c for c in scene["curves"] if c["title"] == title]))
         rows, classes = point_rows(scene)
         names = [f"error {n}" for n in scene["points"][0]["errors"]]
-        page.table(["phase", "setting", "status", "error", *names, "time [s]", "dofs", "iterations", "nnz(L)", *STAGES, "MB"], rows, classes, scroll=True)
+        page.table(["phase", "setting", "status", "error", *names, "time [s]", "wall clock [s]", "dofs", "iterations", "nnz(L)", *STAGES, "MB"], rows, classes, scroll=True)
     page.heading("Penalty: projected against pointwise")
     page.figure(penalty_figure(data["penalty"]))
     for line in penalty_claim(data["penalty"]):

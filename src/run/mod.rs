@@ -19,7 +19,7 @@ mod state;
 mod strategy;
 mod summary;
 
-pub use clock::Clock;
+pub use clock::{Clock, processor};
 pub use march::{Means, Place, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
 pub use shared::Shared;

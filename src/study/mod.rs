@@ -30,7 +30,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 
 use crate::error::{At, Error, Result};
 use crate::output::write_json;
-use crate::run::{Shared, memory};
+use crate::run::{Shared, memory, processor};
 
 /// How far a study is.
 #[derive(Debug)]
@@ -136,6 +136,7 @@ pub fn run_once(plan: &Plan, means: &Means, point: usize, file: &Path) -> Result
     let shared = Shared::new(&means.options, &means.meshes());
     let mut outcome = point::run_once(plan, means, &shared, point)?;
     outcome.peak_memory = memory::peak();
+    outcome.processor = processor().into_iter().collect();
     write_json(file, &outcome)?;
     Ok(outcome)
 }

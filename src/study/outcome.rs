@@ -24,6 +24,8 @@ pub struct Outcome {
     pub strategy: String,
     /// Seconds of every repeat: of the whole process where it has one of its own.
     pub seconds: Vec<f64>,
+    /// Processor time of every repeat that had a process of its own, the mesher not counted [s].
+    pub processor: Vec<f64>,
     /// Seconds by stage of every repeat.
     pub stages: Vec<IndexMap<String, f64>>,
     /// Most memory of a process of its own [bytes].
@@ -45,23 +47,30 @@ impl Outcome {
 
     /// Fastest, median and (slowest − fastest)/median of the repeats [s].
     pub fn times(&self) -> [f64; 3] {
-        let mut sorted = self.seconds.clone();
-        sorted.sort_by(f64::total_cmp);
-        let (Some(&first), Some(&last)) = (sorted.first(), sorted.last()) else { return [f64::NAN; 3] };
-        let n = sorted.len();
-        let median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
-        [first, median, (last - first) / median]
+        let (first, last) =
+            self.seconds.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &s| (a.min(s), b.max(s)));
+        let middle = median(self.seconds.iter().copied());
+        [first, middle, (last - first) / middle]
+    }
+
+    /// Median processor time [s].
+    pub fn processor_time(&self) -> f64 {
+        median(self.processor.iter().copied())
     }
 
     /// Median seconds of a stage.
     pub fn stage(&self, name: &str) -> f64 {
-        let mut of: Vec<f64> =
-            self.stages.iter().map(|stages| stages.get(name).copied().unwrap_or(0.0)).collect();
-        of.sort_by(f64::total_cmp);
-        match of.len() {
-            0 => f64::NAN,
-            n => 0.5 * (of[(n - 1) / 2] + of[n / 2]),
-        }
+        median(self.stages.iter().map(|stages| stages.get(name).copied().unwrap_or(0.0)))
+    }
+}
+
+/// The median; not a number where there is none.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    match sorted.len() {
+        0 => f64::NAN,
+        n => 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
     }
 }
 
@@ -82,11 +91,12 @@ mod tests {
             counts: empty,
             strategy: String::new(),
             seconds: vec![4.0, 2.0, 3.0, 5.0],
+            processor: vec![1.0, 3.0],
             stages: vec![IndexMap::from([("solve".to_string(), 1.0)]), IndexMap::new()],
             peak_memory: None,
             reused: Vec::new(),
         };
         assert_eq!(outcome.times(), [2.0, 3.5, 3.0 / 3.5]);
-        assert_eq!(outcome.stage("solve"), 0.5);
+        assert_eq!((outcome.stage("solve"), outcome.processor_time()), (0.5, 2.0));
     }
 }

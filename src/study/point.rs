@@ -65,6 +65,7 @@ pub(super) fn run_point(plan: &Plan, means: &Means, shared: &Shared, point: usiz
             None => outcome = Some(once),
             Some(first) => {
                 first.seconds.extend(once.seconds);
+                first.processor.extend(once.processor);
                 first.stages.extend(once.stages);
                 first.peak_memory = first.peak_memory.max(once.peak_memory);
             }
@@ -118,6 +119,7 @@ pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize
         counts: gauge.counts.iter().map(|(name, value)| (name.to_string(), *value)).collect(),
         strategy: gauge.strategy.into(),
         seconds: vec![seconds],
+        processor: Vec::new(),
         stages: vec![stages],
         peak_memory: None,
         reused,

@@ -127,7 +127,9 @@ fn csv(plan: &Plan, limits: &Limits, points: &[Outcome]) -> String {
     }
     head.extend(counts.iter().cloned());
     head.push("strategy".into());
-    head.extend(["runs", "seconds_min", "seconds_median", "seconds_spread"].map(String::from));
+    head.extend(
+        ["runs", "seconds_min", "seconds_median", "seconds_spread", "processor_seconds"].map(String::from),
+    );
     head.extend(stages.iter().map(|stage| format!("seconds.{stage}")));
     head.extend(["peak_memory_bytes", "reused", "message"].map(String::from));
     let mut text = head.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
@@ -145,7 +147,7 @@ fn csv(plan: &Plan, limits: &Limits, points: &[Outcome]) -> String {
         row.push(outcome.strategy.clone());
         let [min, median, spread] = outcome.times();
         row.push(outcome.seconds.len().to_string());
-        row.extend([min, median, spread].map(|number| format!("{number:.6}")));
+        row.extend([min, median, spread, outcome.processor_time()].map(|number| format!("{number:.6}")));
         row.extend(stages.iter().map(|stage| format!("{:.6}", outcome.stage(stage))));
         row.push(outcome.peak_memory.map_or_else(String::new, |bytes| bytes.to_string()));
         row.push(outcome.reused.join("; "));
