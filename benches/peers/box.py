@@ -15,16 +15,7 @@ class Box:
 
     def __init__(self, layers, k, dof, elastic):
         self.k = k
-        self.points = np.vstack([layers[0][0], layers[1][0]])
-        x, y = self.points.T
-        lower = np.arange(len(x)) < len(layers[0][0])
-        at = {
-            "bottom": np.flatnonzero(lower & (y < -0.5 + 1e-9)),
-            "top": np.flatnonzero(~lower & (y > 0.5 - 1e-9)),
-        }
-        for name, side in (("lower", lower), ("upper", ~lower)):
-            at[f"{name}.left"] = np.flatnonzero(side & (x < 1e-9))
-            at[f"{name}.right"] = np.flatnonzero(side & (x > 1 - 1e-9))
+        self.points, at = common.sides(layers)
         self.at, self.dof = at, dof
         self.x, self.weight, self.b = common.jump_operator(layers, dof)
         self.f = np.zeros(k.shape[0])
@@ -42,10 +33,8 @@ class Box:
         self.pushed = np.concatenate([dof(sides[2], 0), dof(sides[3], 0)])
 
     def pull(self, nodes, along, direction, traction):
-        """Consistent forces of a uniform traction on the straight line through some nodes."""
-        nodes = nodes[np.argsort(self.points[nodes, along])]
-        half = 0.5 * traction * np.diff(self.points[nodes, along])
-        self.f[self.dof(nodes, direction)] += np.append(half, 0.0) + np.insert(half, 0, 0.0)
+        nodes, forces = common.forces(self.points, nodes, along, traction)
+        self.f[self.dof(nodes, direction)] += forces
 
     def blocks(self, nn, nt, tn, tt):
         """B^T w D B by rows and columns: the values of every law point's block."""
@@ -113,12 +102,8 @@ def elastic(box, solver, clock):
     factor = solver(matrix, True)
     u[box.free] = factor.solve(matrix.data, box.f[box.free])
     clock.end("solve")
-    right = box.at["upper.right"]
-    tip = u[box.dof(right, 1)]
-    tractions = (box.b @ u).reshape(-1, 2) * common.NORMAL_STIFFNESS
-    middle = [float(np.interp(0.5, box.x, tractions[:, i])) for i in (0, 1)]
-    tip = float(np.trapezoid(tip[np.argsort(box.points[right, 1])], np.sort(box.points[right, 1])) / 0.5)
-    return u, {"tip": tip, "traction": middle}
+    deflection = u[box.dof(np.arange(len(box.points)), 1)]
+    return u, common.bent(box.points, box.at["upper.right"], deflection, box.x, box.b @ u)
 
 
 def friction(box, solver, clock, increments=common.INCREMENTS):

@@ -1,13 +1,11 @@
-"""What every peer shares: the two meshes, the segments between them, the law, and how a run is timed and told.
+"""What every peer shares: the segments between the two meshes, the law, and how a run is timed and told.
 
 Points along the joint carry the law: two Gauss points on every segment between two projected nodes, as `pointwise`."""
 
 import json
 import resource
 import time
-from pathlib import Path
 
-import meshio
 import numpy as np
 
 YOUNG, POISSON = 1.0e4, 0.2
@@ -30,18 +28,28 @@ class Clock:
         self.since = now
 
     def tell(self, **answers):
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+        peak = 1024 * max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
         total = time.perf_counter() - self.start
         print(json.dumps({"time": {**self.stages, "total": total}, "peak_memory_bytes": peak, **answers}))
 
 
-def read(folder):
-    """Points and quadrilaterals of the lower and of the upper layer."""
-    layers = []
-    for name in ("lower", "upper"):
-        mesh = meshio.read(Path(folder) / f"{name}.msh", file_format="gmsh")
-        layers.append((mesh.points[:, :2].copy(), mesh.cells_dict["quad"].astype(np.int64)))
-    return layers
+def sides(layers):
+    """Points of both layers together, and which of them are on the outer sides, by name."""
+    points = np.vstack([layers[0][0], layers[1][0]])
+    x, y = points.T
+    lower = np.arange(len(x)) < len(layers[0][0])
+    at = {"bottom": y < -0.5 + 1e-9, "top": y > 0.5 - 1e-9}
+    for name, body in (("lower", lower), ("upper", ~lower)):
+        at[f"{name}.left"] = body & (x < 1e-9)
+        at[f"{name}.right"] = body & (x > 1 - 1e-9)
+    return points, {name: np.flatnonzero(found) for name, found in at.items()}
+
+
+def forces(points, nodes, along, traction):
+    """Some nodes in order along their straight line, and the consistent forces of a uniform traction on it."""
+    nodes = nodes[np.argsort(points[nodes, along])]
+    half = 0.5 * traction * np.diff(points[nodes, along])
+    return nodes, np.append(half, 0.0) + np.insert(half, 0, 0.0)
 
 
 def on_joint(points):
@@ -50,13 +58,18 @@ def on_joint(points):
     return nodes[np.argsort(points[nodes, 0])]
 
 
+def cuts(xs_a, xs_b):
+    """Ends of the segments between the projected nodes of both sides."""
+    ends = np.unique(np.round(np.concatenate([xs_a, xs_b]), 12))
+    return ends[np.concatenate([[True], np.diff(ends) > 1e-9])]
+
+
 def law_points(xs_a, xs_b):
     """Two Gauss points per segment: weight, then for each side its edge and the share of the edge's second node."""
-    cuts = np.unique(np.round(np.concatenate([xs_a, xs_b]), 12))
-    cuts = cuts[np.concatenate([[True], np.diff(cuts) > 1e-9])]
-    length = np.diff(cuts)
+    ends = cuts(xs_a, xs_b)
+    length = np.diff(ends)
     xi = 0.5 * (1 + np.array([-1, 1]) / np.sqrt(3))
-    x = (cuts[:-1, None] + length[:, None] * xi).ravel()
+    x = (ends[:-1, None] + length[:, None] * xi).ravel()
     weight = np.repeat(0.5 * length, 2)
     sides = []
     for xs in (xs_a, xs_b):
@@ -89,6 +102,15 @@ def jump_operator(layers, dof):
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(2 * len(x), size)
     )
     return x, weight, matrix
+
+
+def bent(points, end, deflection, x, jumps):
+    """Answers of the bent layers: mean deflection of an end, traction (n, t) at mid-length. `deflection` is of all
+    nodes, `jumps` of the law points at `x`."""
+    nodes, shares = forces(points, end, 1, 1.0)
+    tractions = jumps.reshape(-1, 2) * [NORMAL_STIFFNESS, TANGENTIAL_STIFFNESS]
+    middle = [float(np.interp(0.5, x, tractions[:, i])) for i in (0, 1)]
+    return {"tip": float(shares @ deflection[nodes] / shares.sum()), "traction": middle}
 
 
 def coulomb(jump, plastic):

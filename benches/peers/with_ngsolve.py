@@ -14,6 +14,7 @@ from pyngcore import TaskManager
 from scipy.sparse import csr_matrix, tril
 
 import box
+import meshes
 
 clock.end("import")
 
@@ -58,7 +59,7 @@ def solver(kind):
 
 
 def main(problem, folder, out, kind):
-    layers = common.read(folder)
+    layers = meshes.read(folder)
     shift = len(layers[0][0])
     points = np.vstack([layers[0][0], layers[1][0]])
     cells = np.vstack([layers[0][1], layers[1][1] + shift])

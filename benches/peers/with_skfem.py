@@ -14,6 +14,7 @@ from skfem.helpers import ddot, sym_grad, trace
 from skfem.models.elasticity import lame_parameters
 
 import box
+import meshes
 
 try:
     import pypardiso
@@ -64,7 +65,7 @@ class SuperLu:
 
 
 def main(problem, folder, out):
-    layers = common.read(folder)
+    layers = meshes.read(folder)
     shift = len(layers[0][0])
     points = np.vstack([layers[0][0], layers[1][0]])
     cells = np.vstack([layers[0][1], layers[1][1] + shift])
