@@ -1,40 +1,65 @@
-"""midplane beside NGSolve and scikit-fem on the same meshes: times, and a check that all give the same answers.
+"""midplane beside NGSolve, scikit-fem and GetFEM on the same meshes: times, and a check of the answers.
 
     python3 benches/peers/compare.py target/release/midplane .venv-peers/bin/python --sizes 10k
 
 Programs take turns, so that a busy machine is busy for all; of several turns the fastest counts. Times are those of whole
 processes; `without_imports` is a peer's without the start of Python and the import of its modules. Every peer runs with
 one thread and with all, and the faster counts: on a busy machine PARDISO's threads wait for each other. A peer that is not
-installed is skipped with a line; so is one that takes longer than `--limit`."""
+installed is skipped with a line; so is one that takes longer than `--limit`. A peer runs with the first Python that has
+its modules: the given one or the system's, where Debian puts GetFEM."""
 
 import argparse
+import itertools
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import scenes  # noqa: E402
 
-PEERS = {
-    "ngsolve-cholesky": ("ngsolve", "with_ngsolve.py", ["sparsecholesky"], ("elastic",)),
-    "ngsolve-pardiso": ("ngsolve", "with_ngsolve.py", ["pardiso"], ("elastic", "friction")),
-    "ngsolve-umfpack": ("ngsolve", "with_ngsolve.py", ["umfpack"], ("friction",)),
-    "skfem-pardiso": ("skfem", "with_skfem.py", [], ("elastic", "friction")),
-}
 # of the peers' answers: the coupling is the peers' own `pointwise`; `projected` is another discretisation
 POINTWISE, PROJECTED = 1e-4, 3e-4
+BOTH = ("elastic", "friction")
 
 
-def installed(python, module):
-    return subprocess.run([python, "-c", f"import {module}"], capture_output=True).returncode == 0
+class Peer(NamedTuple):
+    module: str
+    script: str
+    options: list
+    scenes: tuple
+    install: str
 
 
-def environment(python, out, threads):
-    """NGSolve finds MKL by its bare name only."""
+PEERS = {
+    "ngsolve-cholesky": Peer("ngsolve", "with_ngsolve.py", ["sparsecholesky"], ("elastic",), "pip install ngsolve"),
+    "ngsolve-pardiso": Peer("ngsolve", "with_ngsolve.py", ["pardiso"], BOTH, "pip install ngsolve"),
+    "ngsolve-umfpack": Peer("ngsolve", "with_ngsolve.py", ["umfpack"], ("friction",), "pip install ngsolve"),
+    "skfem-pardiso": Peer("skfem", "with_skfem.py", [], BOTH, "pip install scikit-fem"),
+    "getfem-mumps": Peer("getfem", "with_getfem.py", [], BOTH, "apt-get install python3-getfem python3-meshio"),
+}
+
+
+def interpreter(python, wanted):
+    """The first Python that has a peer's modules, or none."""
+    for candidate in filter(shutil.which, [python, "python3", "/usr/bin/python3"]):
+        found = subprocess.run([candidate, "-c", f"import meshio, {wanted.module}"], capture_output=True)
+        if found.returncode == 0:
+            return candidate
+    return None
+
+
+def environment(python, module, out, threads):
+    names = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "NGS_NUM_THREADS")
+    variables = os.environ | {name: str(threads) for name in names}
+    if module != "ngsolve":
+        return variables
+    # it finds MKL by its bare name only
     libraries = Path(python).absolute().parent.parent / "lib"
     links = out / "mkl"
     links.mkdir(parents=True, exist_ok=True)
@@ -42,15 +67,13 @@ def environment(python, out, threads):
         link = links / "libmkl_rt.so"
         link.unlink(missing_ok=True)
         link.symlink_to(library)
-    paths = f"{links.resolve()}:{libraries}"
-    counts = {name: str(threads) for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "NGS_NUM_THREADS")}
-    return os.environ | counts | {"LD_LIBRARY_PATH": paths}
+    return variables | {"LD_LIBRARY_PATH": f"{links.resolve()}:{libraries}"}
 
 
 def peer(python, name, problem, here, out, threads, limit):
-    _, script, extra, _ = PEERS[name]
-    command = [python, HERE / script, problem, here, here / "peer.vtu", *extra]
-    variables = environment(python, out, threads)
+    wanted = PEERS[name]
+    command = [python, HERE / wanted.script, problem, here, here / "peer.vtu", *wanted.options]
+    variables = environment(python, wanted.module, out, threads)
     start = time.perf_counter()
     found = subprocess.run(command, env=variables, capture_output=True, text=True, timeout=limit)
     seconds = time.perf_counter() - start
@@ -87,14 +110,15 @@ def compare(options, python, size, problem):
         f"midplane {c}": lambda c=c: ours(options.program.resolve(), here / f"{problem}.json", c)
         for c in ("projected", "pointwise")
     }
-    for name, (module, _, _, problems) in PEERS.items():
-        if problem in problems and name not in options.skip:
-            if not installed(python, module):
-                print(f"{name}: skipped, {python} has no module {module}")
+    for name, wanted in PEERS.items():
+        if problem in wanted.scenes and name not in options.skip:
+            chosen = interpreter(python, wanted)
+            if chosen is None:
+                print(f"{name}: skipped, not installed ({wanted.install})")
                 continue
             for threads in options.threads:
-                runs[f"{name} {threads}"] = lambda n=name, t=threads: peer(
-                    python, n, problem, here, options.out, t, options.limit
+                runs[f"{name} {threads}"] = lambda n=name, p=chosen, t=threads: peer(
+                    p, n, problem, here, options.out, t, options.limit
                 )
     fastest = {}
     for _ in range(options.repeat):
@@ -123,14 +147,18 @@ def compare(options, python, size, problem):
             f" {row['iterations']:4} iterations {row['peak_bytes_per_dof']:6.0f} B/dof  {row['answer']:.9g}",
             flush=True,
         )
-    others = [row for row in rows if not row["program"].startswith("midplane")]
-    for row in rows[:2] if others else []:
+    agree(list(fastest.values()), f"{size} {problem}")
+    return rows
+
+
+def agree(rows, where):
+    """Ours have what every peer has."""
+    for row, other in itertools.product(rows[:2], rows[2:]):
         allowed = PROJECTED if row["program"].endswith("projected") else POINTWISE
         for what in ("answer", "traction"):
-            if row[what] != "" and abs(row[what] / others[0][what] - 1) > allowed:
-                two = f"{row['program']} has {row[what]:.8g}, {others[0]['program']} {others[0][what]:.8g}"
-                raise SystemExit(f"{size} {problem}: {what}: {two}")
-    return rows
+            if row[what] != "" and abs(row[what] / other[what] - 1) > allowed:
+                two = f"{row['program']} has {row[what]:.8g}, {other['program']} {other[what]:.8g}"
+                raise SystemExit(f"{where}: {what}: {two}")
 
 
 def main():
