@@ -13,7 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 COLOURS = {"elastic": "tab:blue", "friction": "tab:orange", "cracking": "tab:red"}
-MARKERS = {"NGSolve": "s", "scikit-fem": "^", "GetFEM": "D"}
+MARKERS = {"NGSolve": "s", "scikit-fem": "^", "GetFEM": "D", "CalculiX": "v"}
 
 
 def read(path):
