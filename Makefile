@@ -109,7 +109,9 @@ bench-quick: $(MIDPLANE) $(VENV)  ## the same at 10 000 dofs only, in seconds
 	cargo bench --locked --bench law
 	cargo bench --locked --bench pairing
 
-bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve and scikit-fem, installed in .venv-peers: results/bench/peers.csv
+# NGSolve and scikit-fem go to .venv-peers; GetFEM and CalculiX are those of the system, skipped where it has none:
+# apt-get install python3-getfem python3-meshio calculix-ccx
+bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve, scikit-fem, GetFEM, CalculiX: results/bench/peers.csv
 	test -d .venv-peers || python3 -m venv .venv-peers
 	for peer in ngsolve scikit-fem pypardiso; do .venv-peers/bin/pip install --quiet $$peer \
 	    -c benches/peers/requirements.txt meshio scipy || echo "$$peer: cannot be installed, skipped"; done
