@@ -83,12 +83,13 @@ impl Show {
             "joined" => "linear, one factor",
             "in parts" => "linear, factors of two parts side by side",
             "condensed" => "Newton's method on the jumps of the joints",
+            "blocks" => "Newton's method on the jumps of the joints, sparse by blocks",
             "plain" => "Newton's method on all displacements",
             other => other,
         };
         self.line(&format!("{:<8} {:<12} {how}", "solving", totals.strategy));
-        if let Some(Estimate { condensed, plain }) = totals.estimate {
-            let text = format!("condensed {condensed:.1e}, plain {plain:.1e} or more");
+        if let Some(Estimate { condensed, blocks, plain }) = totals.estimate {
+            let text = format!("condensed {condensed:.1e}, blocks {blocks:.1e}, plain {plain:.1e} or more");
             self.line(&format!("{:<8} {:<12} {text}", "", "operations"));
         }
         self.line(&format!(

@@ -92,6 +92,15 @@ pub(super) fn bases<'a>(
     continuum: &'a Continuum,
     stiffness: &'a [Vec<f64>],
 ) -> Make<'a, Base<'a>> {
+    let mut condense = condensations(continuum);
+    Box::new(move |held: &[bool]| {
+        let (condensation, anew) = condense(held)?;
+        Ok((Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?, anew))
+    })
+}
+
+/// Makes the condensation of a set of supports, which serves all sets that differ on joints only.
+pub(super) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Condensation>> {
     let mut condensed: Option<Arc<Condensation>> = None;
     Box::new(move |held: &[bool]| {
         let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
@@ -101,7 +110,7 @@ pub(super) fn bases<'a>(
             None => Arc::new(continuum.condense(held)?),
         };
         condensed = Some(condensation.clone());
-        Ok((Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?, anew))
+        Ok((condensation, anew))
     })
 }
 

@@ -102,7 +102,7 @@ pub fn march_within(
     let dofs = model.dofs();
     let too_large = |TooLarge| memory::too_large(dofs);
     let asked = asked(problem);
-    let stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
+    let mut stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
     let mut totals = Totals::default();
     let linear = asked.is_empty();
     if linear && (strategy != Strategy::Auto || shelf.is_none()) {
@@ -120,15 +120,29 @@ pub fn march_within(
     let settings = settings(&problem.solution);
     if strategy != Strategy::Plain {
         let continuum = &Continuum::new(model, shelf).map_err(too_large)?;
-        let (condensed, estimate) = strategy::condensed(problem, continuum, &asked, available)?;
+        let (strategy, estimate) = strategy::choose(problem, continuum, &asked, available)?;
         totals.estimate = Some(estimate).filter(|_| !linear);
-        if condensed {
-            (totals.strategy, totals.factor_entries) = ("condensed", continuum.entries());
-            let engine: &mut dyn Engine = match linear {
-                true => &mut LinearEngine::condensed(problem, continuum, &stiffness),
-                false => &mut NewtonEngine::condensed(problem, continuum, &asked, &stiffness, settings),
-            };
-            let mut totals = Course::new(problem, engine, totals, clock, &mut begin, visit).march()?;
+        totals.factor_entries = continuum.entries();
+        let engine: Option<Box<dyn Engine>> = match strategy {
+            Strategy::Plain => None,
+            Strategy::Blocks => {
+                let every: Vec<usize> = (0..model.joints.len()).collect();
+                stiffness = every.iter().map(|&k| springs(problem, k, &every)).collect();
+                totals.strategy = "blocks";
+                Some(Box::new(NewtonEngine::blocks(problem, continuum, &stiffness, settings)))
+            }
+            _ => {
+                totals.strategy = "condensed";
+                Some(match linear {
+                    true => Box::new(LinearEngine::condensed(problem, continuum, &stiffness)),
+                    false => {
+                        Box::new(NewtonEngine::condensed(problem, continuum, &asked, &stiffness, settings))
+                    }
+                })
+            }
+        };
+        if let Some(mut engine) = engine {
+            let mut totals = Course::new(problem, &mut *engine, totals, clock, &mut begin, visit).march()?;
             let found = continuum.found();
             let named = |what: &'static str, bodies: &[usize]| -> Vec<String> {
                 bodies.iter().map(|&b| format!("{what} of {}", model.bodies[b].name)).collect()

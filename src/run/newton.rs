@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::engine::{Engine, Failure, Make, Path, bases};
+use super::engine::{Engine, Failure, Make, Path, bases, condensations};
 use super::loading::{Ledger, Load};
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
@@ -10,7 +10,7 @@ use crate::assembly::{Pattern, Symmetric};
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
-    Affine, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain, Point, Ramp,
+    Affine, Blocks, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain, Point, Ramp,
     Respond, Settings, Solution,
 };
 
@@ -85,6 +85,24 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
             Ok((Dual::new(base, asked, stiffness, &sound), anew))
         };
         NewtonEngine::new(problem, settings, Box::new(make), size)
+    }
+}
+
+impl<'a> NewtonEngine<'a, Blocks<'a>> {
+    /// On the jump coefficients of all joints and the rigid motions of floating bodies.
+    pub(super) fn blocks(
+        problem: &'a Problem,
+        continuum: &'a Continuum,
+        stiffness: &'a [Vec<f64>],
+        settings: Settings,
+    ) -> Self {
+        let joints = &problem.model.joints;
+        let mut condense = condensations(continuum);
+        let make = move |held: &[bool]| {
+            let (condensation, anew) = condense(held)?;
+            Ok((Blocks::new(continuum, condensation, joints, stiffness, held)?, anew))
+        };
+        NewtonEngine::new(problem, settings, Box::new(make), Blocks::unknowns(continuum, joints))
     }
 }
 

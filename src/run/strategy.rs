@@ -1,5 +1,7 @@
 //! How a scene is solved: which joints have unknowns of their own, and which form of the equations takes less work.
 
+use std::collections::BTreeSet;
+
 use super::memory;
 use crate::error::Result;
 use crate::law::Law;
@@ -10,11 +12,16 @@ use crate::solver::Continuum;
 /// Iterations of an increment, for the estimate.
 const ITERATIONS: f64 = 4.0;
 
+/// Sparse factors by blocks take so many times as long as dense ones of as much work.
+const SPARSE: f64 = 3.0;
+
 /// Multiplications and additions that a run takes, estimated before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// On the jumps of the joints.
     pub condensed: f64,
+    /// On these and the motions of the bodies, by blocks.
+    pub blocks: f64,
     /// On all displacements, the joints' own share left out.
     pub plain: f64,
 }
@@ -32,43 +39,85 @@ pub(super) fn asked(problem: &Problem) -> Vec<usize> {
     match problem.solution.strategy {
         Strategy::Plain => return active,
         Strategy::Condensed if active.is_empty() => return (0..problem.laws.len()).collect(),
+        Strategy::Blocks => return (0..problem.laws.len()).collect(),
         _ => {}
     }
     (0..problem.laws.len()).filter(|k| problem.stiff[*k] || active.contains(k)).collect()
 }
 
-/// Chooses the condensed form or the plain one (false). Stiff elastic joints need the condensed one.
-pub(super) fn condensed(
+/// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic joints need their jumps
+/// as unknowns.
+pub(super) fn choose(
     problem: &Problem,
     continuum: &Continuum,
     asked: &[usize],
     available: Option<u64>,
-) -> Result<(bool, Estimate)> {
+) -> Result<(Strategy, Estimate)> {
     let (model, dofs) = (&problem.model, problem.model.dofs());
     let border = continuum.border() as f64;
     let coefficients = asked.iter().map(|&k| model.joints[k].size()).sum::<usize>() as f64;
     let changes = problem.stages.windows(2).filter(|pair| pair[0].held != pair[1].held).count();
+    let sets = (1 + changes) as f64;
     let increments = problem.stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
-    let iterations = if active(problem).is_empty() { 1.0 } else { ITERATIONS * increments };
+    let iterations = if active(problem).is_empty() { sets } else { ITERATIONS * increments };
     let base = border.powi(3) / 3.0 + border * coefficients * (border + coefficients);
+    let bodies = |b: usize| {
+        let border = continuum.border_of(b).len() as f64;
+        2.3 * border.powi(3) // its factor, and flexibilities of as many unknowns
+    };
     let estimate = Estimate {
         condensed: continuum.operations()
-            + (1 + changes) as f64 * (base + 2.0 * coefficients.powi(3))
+            + sets * (base + 2.0 * coefficients.powi(3))
             + iterations * 2.0 / 3.0 * coefficients.powi(3),
+        blocks: continuum.operations()
+            + sets * (0..continuum.bodies()).map(bodies).sum::<f64>()
+            + iterations * SPARSE * by_blocks(problem),
         plain: iterations * 2.0 * continuum.operations(),
     };
     let dense = continuum.border().pow(2) + 5 * (coefficients as usize).pow(2);
     let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
     let fits = available.is_none_or(|available| needed <= available);
-    let condensed = match problem.solution.strategy {
+    let strategy = match problem.solution.strategy {
+        Strategy::Auto if asked.is_empty() => Strategy::Condensed,
         Strategy::Auto => {
             let stiff = asked.iter().any(|&k| problem.stiff[k]);
-            stiff || asked.is_empty() || fits && estimate.condensed <= estimate.plain
+            let condensed = if fits { estimate.condensed } else { f64::INFINITY };
+            let plain = if stiff { f64::INFINITY } else { estimate.plain };
+            match estimate.blocks {
+                blocks if condensed <= blocks && condensed <= plain => Strategy::Condensed,
+                blocks if blocks <= plain => Strategy::Blocks,
+                _ => Strategy::Plain,
+            }
         }
-        strategy => strategy == Strategy::Condensed,
+        strategy => strategy,
     };
-    if condensed {
+    if strategy == Strategy::Condensed {
         memory::refuse(dofs, continuum.entries(), needed, available)?;
     }
-    Ok((condensed, estimate))
+    Ok((strategy, estimate))
+}
+
+/// Work of an LU of the joints' unknowns, joint by joint in the order of least degree: those of one body are all connected.
+fn by_blocks(problem: &Problem) -> f64 {
+    let joints = &problem.model.joints;
+    let mut beside: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); joints.len()];
+    for body in 0..problem.model.bodies.len() {
+        let of: Vec<usize> = (0..joints.len()).filter(|&k| joints[k].bodies.contains(&body)).collect();
+        of.iter().for_each(|&k| beside[k].extend(of.iter().filter(|&&other| other != k)));
+    }
+    let front = |set: &BTreeSet<usize>| set.iter().map(|&k| joints[k].size()).sum::<usize>() as f64;
+    let (mut left, mut work): (Vec<usize>, f64) = ((0..joints.len()).collect(), 0.0);
+    while let Some(at) = (0..left.len()).min_by(|&a, &b| {
+        front(&beside[left[a]]).total_cmp(&front(&beside[left[b]])) // ties in the order of the joints
+    }) {
+        let k = left.remove(at);
+        let neighbours = std::mem::take(&mut beside[k]);
+        let (own, rest) = (joints[k].size() as f64, front(&neighbours));
+        work += own.powi(3) * 2.0 / 3.0 + 2.0 * own * own * rest + 2.0 * own * rest * rest;
+        for &a in &neighbours {
+            beside[a].remove(&k);
+            beside[a].extend(neighbours.iter().filter(|&&b| b != a));
+        }
+    }
+    work
 }

@@ -63,7 +63,7 @@ struct Solution {
     factorisations: usize,
     /// Where the path of equilibria turned: after which increment, in which step, at which load level.
     turns: Vec<(usize, String, f64)>,
-    /// "joined", "in parts", "condensed" or "plain".
+    /// "joined", "in parts", "condensed", "blocks" or "plain".
     strategy: &'static str,
     /// Multiplications and additions of both forms, estimated; none where there is no choice.
     operations: Option<Operations>,
@@ -78,6 +78,7 @@ struct Solution {
 #[derive(Debug, Serialize)]
 struct Operations {
     condensed: f64,
+    blocks: f64,
     plain: f64,
 }
 
@@ -165,7 +166,11 @@ pub(super) fn summary<'a>(
             turns: totals.turns.clone(),
             factorisations: totals.factorisations,
             strategy: totals.strategy,
-            operations: totals.estimate.map(|e| Operations { condensed: e.condensed, plain: e.plain }),
+            operations: totals.estimate.map(|e| Operations {
+                condensed: e.condensed,
+                blocks: e.blocks,
+                plain: e.plain,
+            }),
             factor_entries: totals.factor_entries,
             residual: totals.residual,
             energy_balance: totals.energy_balance,

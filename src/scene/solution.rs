@@ -26,6 +26,8 @@ pub enum Strategy {
     Auto,
     /// The jump coefficients: the bodies are factored once, an iteration touches the joints only.
     Condensed,
+    /// The same with the rigid motions of floating bodies, in a system that is sparse by blocks: for hundreds of bodies.
+    Blocks,
     /// All displacements: the whole matrix is factored in every iteration.
     Plain,
 }

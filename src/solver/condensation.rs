@@ -13,7 +13,7 @@ use faer::{Mat, MatMut};
 use rayon::prelude::*;
 
 use super::{Condensed, NotPositiveDefinite, Shelf, Substructure, TooLarge};
-use crate::assembly::Model;
+use crate::assembly::{Model, Pattern};
 
 /// The bodies, each planned alone, and how their dofs are numbered together.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub struct Continuum {
     borders: Vec<Range<usize>>,
     /// Place of every dof in the border.
     pub(super) places: Vec<Option<u32>>,
+    /// Of all nodes, one after the other.
+    coordinates: Vec<f64>,
     shelf: Option<Arc<Shelf>>,
     found: Mutex<Found>,
 }
@@ -82,7 +84,8 @@ impl Continuum {
             let inside = body.parts.places(dofs.len()).into_iter();
             places.extend(inside.map(|place| place.map(|place| start as u32 + place)));
         }
-        Ok(Continuum { bodies, dofs, borders, places, shelf, found: Mutex::new(found) })
+        let (coordinates, found) = (model.coordinates(), Mutex::new(found));
+        Ok(Continuum { bodies, dofs, borders, places, coordinates, shelf, found })
     }
 
     /// What was on the shelf so far.
@@ -93,6 +96,42 @@ impl Continuum {
     /// Number of dofs in the border.
     pub fn border(&self) -> usize {
         self.borders.last().map_or(0, |last| last.end)
+    }
+
+    /// Number of bodies.
+    pub fn bodies(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Dofs of a body.
+    pub(super) fn dofs_of(&self, body: usize) -> Range<usize> {
+        self.dofs[body].clone()
+    }
+
+    /// Places of a body's border in the whole border.
+    pub fn border_of(&self, body: usize) -> Range<usize> {
+        self.borders[body].clone()
+    }
+
+    /// Place of every dof of a body in its own border.
+    pub(super) fn places_of(&self, body: usize) -> Vec<Option<u32>> {
+        let start = self.borders[body].start as u32;
+        self.places[self.dofs_of(body)].iter().map(|place| place.map(|place| place - start)).collect()
+    }
+
+    /// Pattern of a body.
+    pub(super) fn pattern_of(&self, body: usize) -> &Pattern {
+        &self.bodies[body].pattern
+    }
+
+    /// Coordinates of a body's nodes, one after the other.
+    pub(super) fn coordinates_of(&self, body: usize) -> &[f64] {
+        &self.coordinates[self.dofs_of(body)]
+    }
+
+    /// S of a body, its lower triangle.
+    pub(super) fn schur_of<'a>(&self, condensation: &'a Condensation, body: usize) -> &'a Mat<f64> {
+        &condensation.bodies[body].schur
     }
 
     /// Number of entries of all factors.

@@ -1,6 +1,8 @@
 //! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, joints and their stiffness.
 
 mod base;
+mod blocks;
+mod bodies;
 mod cholesky;
 mod condensation;
 mod cut;
@@ -11,6 +13,7 @@ mod graph;
 mod jacobian;
 mod linear;
 mod measure;
+mod motions;
 mod newton;
 mod ordering;
 mod part;
@@ -23,6 +26,7 @@ mod shelf;
 mod substructure;
 
 pub use base::Base;
+pub use blocks::Blocks;
 pub use cholesky::{Cholesky, NotPositiveDefinite, Symbolic, TooLarge};
 pub use condensation::{Condensation, Continuum, Found};
 pub use cut::Cut;
