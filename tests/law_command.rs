@@ -67,3 +67,24 @@ fn bad_input_is_refused_with_its_place() {
         );
     }
 }
+
+/// Claim: a number in a scene is read as the nearest double: the text that Rust writes for it gives it back.
+#[test]
+fn numbers_of_a_scene_are_read_to_the_last_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("path.json");
+    let unit = r#"{ "control": "displacement", "start": 0, "end": 1 }"#;
+    std::fs::write(&path, format!(r#"{{ "program": [ {{ "n": {unit}, "t": {unit}, "points": 1 }} ] }}"#)).unwrap();
+    let scene = folder.path().join("scene.json");
+    for k in [2.209278197011611e-16, 3.0977600523181534e-6, 94279652.81195137, 4.334703999811721e-19] {
+        let text = format!(
+            r#"{{ "plane": "strain", "materials": {{ "rock": {{ "young": 1, "poisson": 0 }} }}, "steps": [ {{ "name": "none" }} ],
+              "subdomains": {{ "a": {{ "msh": "a", "material": "rock" }}, "b": {{ "msh": "b", "material": "rock" }} }},
+              "interfaces": {{ "joint": {{ "side_a": "a.top", "side_b": "b.bottom",
+                "law": {{ "type": "elastic", "normal_stiffness": {k:?}, "tangential_stiffness": 1 }} }} }} }}"#
+        );
+        std::fs::write(&scene, text).unwrap();
+        let rows = rows(&law(&[scene.to_str().unwrap(), "joint", path.to_str().unwrap()]));
+        assert_eq!(rows[2][3].parse::<f64>().unwrap(), k);
+    }
+}
