@@ -1,4 +1,8 @@
-//! The one error of the program: what is wrong, where, and what would have been right.
+//! The one error of the program: what is wrong, where, and what would have been right; and what it warns of.
+
+mod warning;
+
+pub use warning::{Code, Warning};
 
 use std::path::PathBuf;
 

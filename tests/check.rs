@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use common::{bind, even, rectangle};
+use midplane::error::Code;
 use midplane::shape::Shape;
 
 /// A square of n × 2 quadrilaterals with its lower left corner at (x, y).
@@ -61,7 +62,8 @@ fn the_table_has_every_number_of_a_joint() {
     let columns: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(columns, ["joint", "3:5", "0.60", "7", "4", "1.000000", "0.0e0", "0.0e0", "0.0°", "3.33e2"]);
     // the group that no key and no probe names is told, in a check only
-    assert_eq!(err, "warning: subdomain lower: nothing uses its group left\n");
+    let told = "warning: W09 subdomain lower: nothing uses its group left\n         cure: ";
+    assert!(err.starts_with(told) && err.lines().count() == 2, "{err}");
     let run = midplane(folder.path(), &["run", ".", "-o", "out"]);
     assert!(run.status.success() && run.stderr.is_empty(), "{}", String::from_utf8_lossy(&run.stderr));
     assert!(!folder.path().join("out/check").exists());
@@ -97,7 +99,8 @@ fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
 fn warnings(n: [usize; 2], settings: &str, place: impl Fn(f64, f64) -> [f64; 2] + Copy) -> Vec<String> {
     let text = SCENE.replace("\"law\":", &format!("{settings} \"law\":"));
     let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), Shape::Quadrilateral4, place);
-    bind(&text, vec![mesh(n[0], 0.0), mesh(n[1], 1.0)]).unwrap().warnings
+    let problem = bind(&text, vec![mesh(n[0], 0.0), mesh(n[1], 1.0)]).unwrap();
+    problem.warnings.iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -130,4 +133,21 @@ fn what_spoils_a_joint_is_warned_of_and_nothing_else() {
         "{bad:?}"
     );
     assert!(bad[1].contains("5 of 5 cells of upper"), "{bad:?}");
+}
+
+/// Linear elements in plane strain lock towards ν = 0.5; quadratic ones and plane stress do not.
+#[test]
+fn elements_that_lock_are_warned_of() {
+    let bound = |from: &str, to: &str, shape: Shape| {
+        let text = SCENE.replace("\"poisson\": 0.0", "\"poisson\": 0.495").replace(from, to);
+        let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), shape, |x, y| [x, y]);
+        bind(&text, vec![mesh(3, 0.0), mesh(5, 1.0)]).unwrap().warnings
+    };
+    for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
+        let told = bound("", "", shape);
+        assert!(told.len() == 2 && told.iter().all(|warning| warning.code == Code::Locking), "{told:?}");
+    }
+    assert!(bound("", "", Shape::Triangle6).is_empty());
+    assert!(bound("0.495", "0.49", Shape::Quadrilateral4).is_empty());
+    assert!(bound("\"strain\"", "\"stress\"", Shape::Quadrilateral4).is_empty());
 }

@@ -258,7 +258,7 @@ fn b23_partial_overlap_couples_the_common_length_and_says_so() {
     assert!((c.length - 0.7).abs() < 1e-15);
     close(c.joined[0], 0.5, 1e-14, 1.0, "share of A");
     close(c.joined[1], 0.7, 1e-14, 1.0, "share of B");
-    let said = |text: &str| problem.warnings.iter().any(|warning| warning.contains(text));
+    let said = |text: &str| problem.warnings.iter().any(|warning| warning.what.contains(text));
     assert!(said("50.0000 % of side A is joined (length 0.700000)"), "{:?}", problem.warnings);
     assert!(said("70.0000 % of side B"), "{:?}", problem.warnings);
     // all of the pressure passes through it

@@ -274,7 +274,8 @@ fn b26_one_named_curve_meets_two_blocks() {
     );
     // σ_xx = σ_xy = 0: nothing acts between b and c, which touch
     let problem = passes(blocks, &state, &by_hand, "by hand");
-    let shares: Vec<&String> = problem.warnings.iter().filter(|w| w.contains("is joined")).collect();
+    let shares = problem.warnings.iter().filter(|w| w.what.contains("is joined"));
+    let shares: Vec<String> = shares.map(ToString::to_string).collect();
     assert!(shares.is_empty(), "the two blocks cover the curve: {shares:?}");
 }
 

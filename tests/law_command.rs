@@ -74,7 +74,8 @@ fn numbers_of_a_scene_are_read_to_the_last_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.json");
     let unit = r#"{ "control": "displacement", "start": 0, "end": 1 }"#;
-    std::fs::write(&path, format!(r#"{{ "program": [ {{ "n": {unit}, "t": {unit}, "points": 1 }} ] }}"#)).unwrap();
+    std::fs::write(&path, format!(r#"{{ "program": [ {{ "n": {unit}, "t": {unit}, "points": 1 }} ] }}"#))
+        .unwrap();
     let scene = folder.path().join("scene.json");
     for k in [2.209278197011611e-16, 3.0977600523181534e-6, 94279652.81195137, 4.334703999811721e-19] {
         let text = format!(

@@ -117,12 +117,16 @@ fn b17_an_energy_too_small_for_the_stiffness_is_refused_with_the_least_stiffness
     assert!(EXAMPLE_2.warnings().is_empty());
     let soft = Cracking { tangential_stiffness: 5e4, ..EXAMPLE_2 };
     assert!(soft.check().is_ok());
-    assert!(soft.warnings()[0].contains("tangential_stiffness"), "{:?}", soft.warnings());
+    assert!(soft.warnings()[0].what.contains("tangential_stiffness"), "{:?}", soft.warnings());
     // friction loss: |σ| c₀ (t₀ − t_r)/G_II reaches K_T = 2e5 at 2e5·2e-3/(4·0.3785) = 264: far off; at 2e-4, G_I 1e-4: 26.4
     let losing = Cracking { tan_friction_residual: Some(0.5), tangential_stiffness: 2e5, ..EXAMPLE_2 };
     assert!(losing.warnings().is_empty());
     let brittle = Cracking { fracture_energy_i: 2e-4, fracture_energy_iia: 2e-4, ..losing };
-    assert!(brittle.warnings().iter().any(|warning| warning.contains("2.642e1")), "{:?}", brittle.warnings());
+    assert!(
+        brittle.warnings().iter().any(|warning| warning.what.contains("2.642e1")),
+        "{:?}",
+        brittle.warnings()
+    );
 }
 
 #[test]

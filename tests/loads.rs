@@ -180,8 +180,8 @@ fn stiffness_beyond_double_precision_is_refused() {
         );
         two_squares(HEAD, &law, &format!(r#"{{ "name": "go", {HELD} }}"#), "")
     };
-    assert!(go("pointwise", 1e12).unwrap().warnings.iter().all(|warning| !warning.contains("rounding")));
-    assert!(go("pointwise", 1e15).unwrap().warnings[0].contains("K_N h/E = 3.3e10"));
+    assert!(go("pointwise", 1e12).unwrap().warnings.iter().all(|warning| !warning.what.contains("rounding")));
+    assert!(go("pointwise", 1e15).unwrap().warnings[0].what.contains("K_N h/E = 3.3e10"));
     let message = go("pointwise", 1e18).unwrap_err().to_string();
     assert!(message.contains("interfaces.joint.law.normal_stiffness: K_N h/E = 3.3e13"), "{message}");
     assert!(message.contains("take 1e14 or less"), "{message}");

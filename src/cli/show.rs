@@ -6,6 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
+use crate::error::Warning;
 use crate::output::Row;
 use crate::run::{Done, Estimate, Event, Totals, memory::gigabytes};
 
@@ -41,11 +42,12 @@ impl Show {
         }
     }
 
-    /// A warning is worth its line also when everything else is quiet.
-    pub(super) fn warning(&self, text: &str) {
+    /// A warning is worth its lines also when everything else is quiet.
+    pub(super) fn warning(&self, Warning { code, what, cure }: &Warning) {
+        let text = format!("warning: {code} {what}\n         cure: {cure}");
         match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("warning: {text}")),
-            None => eprintln!("warning: {text}"),
+            Some(bar) => bar.suspend(|| eprintln!("{text}")),
+            None => eprintln!("{text}"),
         }
     }
 
@@ -61,7 +63,7 @@ impl Show {
                 self.line(&format!("{how:<8} {name:<12} {}", path.display()));
             }
             Event::Joint(joint) => self.line(&describe(joint)),
-            Event::Warning(text) => self.warning(text),
+            Event::Warning(warning) => self.warning(warning),
             Event::Reused(what) => self.line(&format!("reused   {what}")),
             Event::Increment { row, number, of, total, totals, .. } => {
                 if self.totals.is_none() {

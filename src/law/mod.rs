@@ -21,6 +21,8 @@ use serde::{Deserialize, Serialize};
 
 use admissible::{not_negative, refuse};
 
+use crate::error::Warning;
+
 /// Index of the normal component of a jump or traction.
 pub const N: usize = 0;
 /// Index of the tangential component of a jump or traction.
@@ -111,8 +113,8 @@ impl Law {
         }
     }
 
-    /// What is admissible but likely to disappoint, one sentence each.
-    pub fn warnings(&self) -> Vec<String> {
+    /// What is admissible but likely to disappoint.
+    pub fn warnings(&self) -> Vec<Warning> {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => Vec::new(),
             Law::Cracking(law) => law.warnings(),

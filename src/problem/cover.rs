@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::plan::Plan;
 use crate::assembly::Model;
-use crate::error::Result;
+use crate::error::{Code, Result, Warning};
 use crate::scene::Scene;
 
 /// Two interfaces may reach this far into each other where they meet. Of the edge.
@@ -23,7 +23,7 @@ struct Taken {
 }
 
 /// Refuses a place that two interfaces join; warns of sides, named by the scene, that are joined in part.
-pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec<String>> {
+pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec<Warning>> {
     let edges = taken(model);
     for (nodes, of_edge) in &edges {
         let twice = of_edge
@@ -56,9 +56,11 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec
             }
             if joined < whole * (1.0 - WHOLE) {
                 let (name, share, length) = (&plan.name, 100.0 * joined / whole, joined);
-                warnings.push(format!(
+                let what = format!(
                     "interface {name}: {share:.4} % of side {label} is joined (length {length:.6}), the rest faces nothing"
-                ));
+                );
+                let cure = "fine if it is meant; else move the sides or name the right curves";
+                warnings.push(Warning::new(Code::PartlyJoined, what, cure));
             }
         }
     }

@@ -31,7 +31,7 @@ pub use unused::unused_groups;
 
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::{Elasticity, Plane};
-use crate::error::Result;
+use crate::error::{Result, Warning};
 use crate::law::{self, Law, Stepping};
 use crate::mesh::Mesh;
 use crate::scene::{self, Scene};
@@ -60,7 +60,7 @@ pub struct Problem {
     /// True for the elastic joints that are too stiff for differences of displacements.
     pub stiff: Vec<bool>,
     /// What the user should know before believing the result.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
 }
 
 impl Problem {
@@ -77,7 +77,7 @@ impl Problem {
             bodies: bodies(scene, meshes),
             joints: Vec::new(),
         };
-        let mut warnings = Vec::new();
+        let mut warnings = warnings::locking(&model.bodies);
         let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
         let mut stiff = Vec::new();
         let plans = plan::plans(scene, &model)?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rayon::prelude::*;
 
-use crate::error::{Result, name_cure};
+use crate::error::{Code, Result, Warning, name_cure};
 use crate::mesh::{Group, Mesh};
 use crate::scene::Scene;
 
@@ -14,7 +14,7 @@ pub fn subdomain_meshes(
     scene: &Scene,
     files: Vec<Mesh>,
     file_of: &[usize],
-) -> Result<(Vec<Mesh>, Vec<String>)> {
+) -> Result<(Vec<Mesh>, Vec<Warning>)> {
     let mut owner: Vec<Vec<usize>> = files.iter().map(|mesh| vec![usize::MAX; mesh.cells.len()]).collect();
     let mut cells: Vec<Option<&[usize]>> = Vec::new();
     for (number, (name, subdomain)) in scene.subdomains.iter().enumerate() {
@@ -70,14 +70,21 @@ fn in_order(files: &[Mesh], file_of: &[usize]) -> bool {
 }
 
 /// What no subdomain takes of a mesh that some share.
-fn left_out(mesh: &Mesh, owner: &[usize]) -> Option<String> {
+fn left_out(mesh: &Mesh, owner: &[usize]) -> Option<Warning> {
     let free = |cells: &Vec<usize>| cells.iter().all(|&cell| owner[cell] == usize::MAX);
     let unused = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Cells(cells) if free(cells)));
     let names: Vec<String> = unused.map(|(name, _)| format!("\"{name}\"")).collect();
     let left = owner.iter().filter(|&&number| number == usize::MAX).count();
     let file = mesh.file.file_name().map_or_else(PathBuf::new, PathBuf::from);
-    (left > 0).then(|| match names.len() {
-        0 => format!("{}: {left} cells belong to no subdomain", file.display()),
-        _ => format!("{}: no subdomain takes surface {}, {left} cells", file.display(), names.join(", ")),
+    (left > 0).then(|| {
+        let what = match names.len() {
+            0 => format!("{}: {left} cells belong to no subdomain", file.display()),
+            _ => format!("{}: no subdomain takes surface {}, {left} cells", file.display(), names.join(", ")),
+        };
+        Warning::new(
+            Code::UnusedCells,
+            what,
+            "give them a subdomain with that \"surface\", or leave them out",
+        )
     })
 }

@@ -5,11 +5,12 @@ use std::collections::HashSet;
 use serde_json::Value;
 
 use crate::assembly::Model;
+use crate::error::{Code, Warning};
 use crate::mesh::Group;
 use crate::scene::Scene;
 
 /// One line for every subdomain with groups that nothing in the scene names. Surfaces do not count: every mesh has one.
-pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<String> {
+pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<Warning> {
     let mut texts = HashSet::new();
     // whatever part of a scene names groups does so by its keys and texts
     collect(&serde_json::to_value(scene).unwrap_or_default(), &mut texts);
@@ -26,8 +27,11 @@ pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<String> {
         (&body.name, unused.map(String::as_str).collect::<Vec<&str>>())
     });
     let told = lines.filter(|(_, unused)| !unused.is_empty());
-    told.map(|(body, unused)| format!("subdomain {body}: nothing uses its group {}", unused.join(", ")))
-        .collect()
+    told.map(|(body, unused)| {
+        let what = format!("subdomain {body}: nothing uses its group {}", unused.join(", "));
+        Warning::new(Code::UnusedGroups, what, "fine if it is meant; else look for a misspelt name")
+    })
+    .collect()
 }
 
 fn collect(value: &Value, texts: &mut HashSet<String>) {

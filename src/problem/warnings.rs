@@ -2,7 +2,8 @@
 
 use super::plan::Plan;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
-use crate::assembly::{Joint, Model};
+use crate::assembly::{Body, Joint, Model};
+use crate::error::{Code, Warning};
 use crate::scene::{CouplingKind, Scene};
 
 /// A gap below this is rounding. Of the length of the joint.
@@ -11,9 +12,11 @@ const GAP_SEEN: f64 = 1e-9;
 const RESOLVED: f64 = 1e-10;
 /// Cells with a lower scaled Jacobian are bad (Verdict accepts quadrilaterals from here).
 const BAD: f64 = 0.3;
+/// Linear elements lock in plane strain from this Poisson's ratio on.
+const LOCKING: f64 = 0.49;
 
 /// The warnings of one joint.
-pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan) -> Vec<String> {
+pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (name, law) = (&joint.name, &plan.interface.law);
     let coupling = &joint.coupling;
@@ -21,21 +24,21 @@ pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan)
     let matched = (0..2).all(|side| coupling.edges(side) == segments);
     let number = stiffness_number(model, joint, law);
     if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.interface) {
-        warnings.push(format!(
-            "interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions; less stiff springs say as much"
-        ));
+        let what = format!("interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions");
+        warnings.push(Warning::new(Code::Rounding, what, "less stiff springs say as much"));
     }
-    warnings.extend(law.warnings().into_iter().map(|warning| format!("interface {name}: {warning}")));
+    warnings.extend(law.warnings().into_iter().map(|warning| warning.of(&format!("interface {name}"))));
     if plan.interface.coupling == CouplingKind::Pointwise && !matched && number > 1.0 {
-        warnings.push(format!(
-            "interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates; use \"projected\""
-        ));
+        let what =
+            format!("interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates");
+        warnings.push(Warning::new(Code::Oscillation, what, "use \"projected\""));
     }
     let [least, most] = coupling.midplane.gap;
     let widest = most.max(-least);
     if coupling.midplane.apart > GAP_SEEN * coupling.midplane.length && plan.interface.initial_gap.is_none() {
-        warnings
-            .push(format!("interface {name}: the sides are up to {widest:.3e} apart; this is not a stress"));
+        let what = format!("interface {name}: the sides are up to {widest:.3e} apart");
+        let cure = "this is not a stress: draw them on one line, or give \"initial_gap\" if it is meant";
+        warnings.push(Warning::new(Code::Apart, what, cure));
     }
     warnings.extend(far_away(joint));
     for curve in plan.sides.iter().flatten() {
@@ -50,19 +53,34 @@ pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan)
             .collect();
         if let Some((worst, cell)) = bad.iter().min_by(|p, q| p.0.total_cmp(&q.0)) {
             let [x, y] = body.mesh.points[body.mesh.cells.nodes(*cell)[0]];
-            warnings.push(format!(
+            let what = format!(
                 "interface {name}: {} of {} cells of {} beside it have a scaled Jacobian below {BAD}, the worst {worst:.2} near ({x:.4}, {y:.4})",
                 bad.len(),
                 cells.len(),
                 body.name
-            ));
+            );
+            let cure = "stresses there mean little: mesh it with better angles";
+            warnings.push(Warning::new(Code::BadCells, what, cure));
         }
     }
     warnings
 }
 
+/// Bodies in plane strain whose elements lock: their volume cannot change, and linear elements know no other way to deform.
+pub(super) fn locking(bodies: &[Body]) -> Vec<Warning> {
+    let locks = |body: &&Body| {
+        body.elasticity.out_of_plane > LOCKING && body.mesh.cells.shapes.iter().any(|s| !s.is_quadratic())
+    };
+    let told = bodies.iter().filter(locks).map(|body| {
+        let nu = body.elasticity.out_of_plane; // ν in plane strain, zero in plane stress
+        let what = format!("subdomain {}: linear elements lock at a Poisson's ratio of {nu}", body.name);
+        Warning::new(Code::Locking, what, "use T6 or Q8: Mesh.ElementOrder = 2 in the .geo")
+    });
+    told.collect()
+}
+
 /// A joint so far from the origin, for its edges, that rounding of its coordinates is seen.
-fn far_away(joint: &Joint) -> Option<String> {
+fn far_away(joint: &Joint) -> Option<Warning> {
     let (mut farthest, mut smallest) = (0.0_f64, f64::INFINITY);
     let coupling = &joint.coupling;
     for side in 0..2 {
@@ -74,9 +92,10 @@ fn far_away(joint: &Joint) -> Option<String> {
     }
     let resolved = f64::EPSILON * farthest / smallest;
     (resolved > RESOLVED).then(|| {
-        format!(
-            "interface {}: {farthest:.1e} away from the origin, coordinates resolve {resolved:.0e} of its smallest edge; move the origin",
+        let what = format!(
+            "interface {}: {farthest:.1e} away from the origin, coordinates resolve {resolved:.0e} of its smallest edge",
             joint.name
-        )
+        );
+        Warning::new(Code::FarAway, what, "move the origin nearer")
     })
 }

@@ -29,7 +29,7 @@ pub use strategy::Estimate;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Warning};
 use crate::output::{Row, Writer};
 use crate::problem::Problem;
 use crate::scene::Fields;
@@ -74,7 +74,7 @@ pub enum Event<'a> {
     /// A joint is built.
     Joint(&'a crate::assembly::Joint),
     /// Something the user should know before believing the result.
-    Warning(&'a str),
+    Warning(&'a Warning),
     /// An increment is done.
     Increment {
         /// Its row of the history.

@@ -25,7 +25,8 @@ pub(super) struct Summary<'a> {
     /// Seconds by stage.
     time: IndexMap<&'static str, f64>,
     peak_memory_bytes: Option<u64>,
-    warnings: &'a [String],
+    /// `W04 interface joint: why; cure`.
+    warnings: Vec<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -179,6 +180,6 @@ pub(super) fn summary<'a>(
         equilibrium,
         time,
         peak_memory_bytes: memory::peak(),
-        warnings: &problem.warnings,
+        warnings: problem.warnings.iter().map(ToString::to_string).collect(),
     }
 }

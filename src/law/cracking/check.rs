@@ -9,6 +9,7 @@
 
 use super::super::admissible::{Inadmissible, not_negative, positive, refuse};
 use super::{Cracking, Surface};
+use crate::error::{Code, Warning};
 
 /// Shapes beyond this exponent are steps in double precision.
 const LARGEST_EXPONENT: f64 = 50.0;
@@ -48,7 +49,7 @@ impl Cracking {
     }
 
     /// What is admissible but likely to disappoint: K_T too low for a smooth way past the peak in shear.
-    pub fn warnings(&self) -> Vec<String> {
+    pub fn warnings(&self) -> Vec<Warning> {
         let (chi, c, kt) = (self.tensile_strength, self.cohesion, self.tangential_stiffness);
         let cohesion_loss = match c > 0.0 {
             true => c * c * self.alpha_cohesion.abs().exp() / self.fracture_energy_iia,
@@ -63,21 +64,24 @@ impl Cracking {
         let mut warnings = Vec::new();
         let least = WELL_ABOVE * cohesion_loss.max(tensile_loss);
         if kt < least {
-            warnings.push(format!(
-            "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
-             chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in \
-             shear; {least:.2e} or more is safer"
-            ));
+            let what = format!(
+                "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
+                 chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in shear"
+            );
+            let cure = format!("{least:.2e} or more is safer");
+            warnings.push(Warning::new(Code::LeapInShear, what, cure));
         }
         let friction_loss = self.tan_friction - self.tan_friction_residual.unwrap_or(self.tan_friction);
         let steepest = c * friction_loss * self.alpha_tan_friction.abs().exp();
         let highest = kt * self.fracture_energy_iia / steepest; // infinite without a loss
         if highest < HIGH_COMPRESSION * c {
-            warnings.push(format!(
+            let what = format!(
                 "under compression above tangential_stiffness * fracture_energy_iia / (cohesion * (tan_friction - \
                  tan_friction_residual) * e^|alpha|) = {highest:.3e} the loss of friction alone may make the traction \
-                 leap in shear; raise tangential_stiffness if the joint will carry that"
-            ));
+                 leap in shear"
+            );
+            let cure = "raise tangential_stiffness if the joint will carry that";
+            warnings.push(Warning::new(Code::LeapByFriction, what, cure));
         }
         warnings
     }

@@ -1,0 +1,84 @@
+//! What the user should know before believing a result: a code, where and why, and what to do about it.
+//!
+//! docs/WARNINGS.md has a section for every code; tests/warnings.rs sees to that.
+
+use std::fmt;
+
+/// What may be warned of, in the order of the codes W01, W02, …
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// Springs so stiff that rounding reaches the tractions.
+    Rounding,
+    /// `pointwise` where it oscillates.
+    Oscillation,
+    /// Sides that are drawn apart.
+    Apart,
+    /// Coordinates too far from the origin for the edges.
+    FarAway,
+    /// Bad cells beside a joint.
+    BadCells,
+    /// Shear stiffness too low for the fracture energies.
+    LeapInShear,
+    /// Shear stiffness too low for the loss of friction.
+    LeapByFriction,
+    /// A side that is joined in part.
+    PartlyJoined,
+    /// Groups that the scene does not use.
+    UnusedGroups,
+    /// Cells that belong to no subdomain.
+    UnusedCells,
+    /// Elements that lock in a nearly incompressible body.
+    Locking,
+}
+
+impl Code {
+    /// All of them.
+    pub const ALL: [Code; 11] = [
+        Code::Rounding,
+        Code::Oscillation,
+        Code::Apart,
+        Code::FarAway,
+        Code::BadCells,
+        Code::LeapInShear,
+        Code::LeapByFriction,
+        Code::PartlyJoined,
+        Code::UnusedGroups,
+        Code::UnusedCells,
+        Code::Locking,
+    ];
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "W{:02}", *self as u8 + 1)
+    }
+}
+
+/// One thing to know. As text: `W04 interface joint: why; cure`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Its code.
+    pub code: Code,
+    /// Where and why, one line.
+    pub what: String,
+    /// What to do about it, one line.
+    pub cure: String,
+}
+
+impl Warning {
+    /// A warning from its parts.
+    pub fn new(code: Code, what: impl Into<String>, cure: impl Into<String>) -> Warning {
+        Warning { code, what: what.into(), cure: cure.into() }
+    }
+
+    /// The same, told of something: `interface joint: …`.
+    pub fn of(self, place: &str) -> Warning {
+        Warning { what: format!("{place}: {}", self.what), ..self }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}; {}", self.code, self.what, self.cure)
+    }
+}
