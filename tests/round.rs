@@ -19,12 +19,15 @@ mod round;
 #[path = "common/table.rs"]
 mod table;
 
+use std::f64::consts::PI;
+
 use common::*;
+use midplane::error::Code;
 use midplane::problem::Problem;
 use midplane::run::State;
 use midplane::shape::Shape;
 use rings::{Polar, Round, inclusion, rings};
-use round::{l2_error, quarter, ring};
+use round::{bent, l2_error, quarter, ring};
 use table::{Table, list, rate};
 
 const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
@@ -224,4 +227,26 @@ fn stiff_rings_transmit_the_pressure() {
         before = Some(errors);
     }
     table.finish();
+}
+
+/// Claim: a half ring on a frictionless half ring may turn about the centre; what resists it is the mesh alone, and is warned of.
+#[test]
+fn a_half_ring_on_a_frictionless_half_ring_is_hardly_held() {
+    let half = |n: usize, r: [f64; 2]| {
+        bent(&even(0.0, 1.0, n), &even(r[0], r[1], 3), Shape::Quadrilateral4, |x, r| {
+            [r * (PI * (1.0 - x)).cos(), r * (PI * (1.0 - x)).sin()]
+        })
+    };
+    let exact = rings(2e4, 0.0, 10.0, 0.0);
+    let bound = |more: &str| {
+        let step = format!(
+            r#""fix": {{ "a.bottom": ["x", "y"]{more} }}, "load": {{ "b.top": {{ "pressure": 10 }} }}"#
+        );
+        let text = scene(&exact, [2e4, 0.0], "projected", &step);
+        bind(&text, vec![half(14, [1.0, 1.5]), half(20, [1.5, 2.0])]).unwrap().warnings
+    };
+    let told = bound("");
+    assert!(told.len() == 1 && told[0].code == Code::HardlyHeld, "{told:?}");
+    assert!(told[0].what.contains("subdomain b is hardly held against a rotation about"), "{told:?}");
+    assert!(bound(r#", "b.left": ["y"]"#).is_empty());
 }

@@ -29,11 +29,13 @@ pub enum Code {
     UnusedCells,
     /// Elements that lock in a nearly incompressible body.
     Locking,
+    /// A body that next to nothing holds.
+    HardlyHeld,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 11] = [
+    pub const ALL: [Code; 12] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -45,6 +47,7 @@ impl Code {
         Code::UnusedGroups,
         Code::UnusedCells,
         Code::Locking,
+        Code::HardlyHeld,
     ];
 }
 

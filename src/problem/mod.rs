@@ -97,7 +97,9 @@ impl Problem {
         warnings.extend(cover::shares(scene, &model, &plans)?);
         let (stages, reactions) = history::stages(scene, &model)?;
         for stage in &stages {
-            rigid::refuse_free_bodies(&model, &laws, stage)?;
+            let warning = rigid::refuse_free_bodies(&model, &laws, stage)?;
+            let new = warning.filter(|warning| !warnings.contains(warning));
+            warnings.extend(new);
         }
         let probes = probes::bind(scene, &model)?;
         let (solution, fields) = (scene.solution, scene.output.fields);

@@ -1,4 +1,4 @@
-//! Rigid motions that nothing holds: found before anything is solved, and named.
+//! Rigid motions that nothing holds, or next to nothing: found before anything is solved, and named.
 //!
 //! Every connected part of every body has three rigid motions. Supports and joints resist combinations of them; the Gram
 //! matrix of these resistances (as yes or no, not as stiffness) must have no null space.
@@ -7,11 +7,14 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::{InitialTraction, Stage};
 use crate::assembly::Model;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result, Warning};
 use crate::law::Law;
 
 /// A motion is free if its resistance is below this. Of the largest resistance.
 const FREE: f64 = 1e-12;
+/// A motion is hardly held if its resistance is below this: the bends between the edges of a frictionless arc resist a
+/// turn about its centre by less, and ever less on finer meshes. Of the largest resistance.
+const HARDLY: f64 = 1e-6;
 
 /// A connected part of a body.
 struct Part {
@@ -21,12 +24,12 @@ struct Part {
     size: f64,
 }
 
-/// Refuses the step if a body can move freely in it.
+/// Refuses the step if a body can move freely in it; warns if it almost can.
 pub(super) fn refuse_free_bodies(
     model: &Model,
     laws: &[(Law, InitialTraction)],
     stage: &Stage,
-) -> Result<()> {
+) -> Result<Option<Warning>> {
     let (parts, part_of) = parts(model);
     let motion = |part: &Part, mode: usize, node: usize| -> [f64; 2] {
         let body = &model.bodies[part.body];
@@ -95,8 +98,8 @@ pub(super) fn refuse_free_bodies(
     }
     let eigen = SymmetricEigen::new(gram);
     let (least, value) = eigen.eigenvalues.argmin();
-    if value > limit {
-        return Ok(());
+    if value > limit / FREE * HARDLY {
+        return Ok(None);
     }
     let mode = eigen.eigenvectors.column(least);
     let share = |p: usize| mode.rows(3 * p, 3).norm();
@@ -111,18 +114,31 @@ pub(super) fn refuse_free_bodies(
         let omega = turn / part.size; // u = t + ω ẑ × (x − centre) vanishes at the pole
         format!("rotation about ({:.4}, {:.4})", part.centre[0] - ty / omega, part.centre[1] + tx / omega)
     };
-    Err(free(model, &parts, &moving, text))
+    if value <= limit {
+        return Err(free(model, &parts, &moving, text));
+    }
+    let what = format!(
+        "{} is hardly held against a {text}: {:.0e} of the largest resistance",
+        named(model, &parts, &moving),
+        value / limit * FREE
+    );
+    let cure = "hold it, or give its joints a stiffness in that direction: what it does is up to the mesh";
+    Ok(Some(Warning::new(Code::HardlyHeld, what, cure)))
 }
 
 fn free(model: &Model, parts: &[Part], moving: &[usize], mode: String) -> Error {
+    Error::FreeBody { body: named(model, parts, moving), mode }
+}
+
+/// The bodies of some parts, the first before the others.
+fn named(model: &Model, parts: &[Part], moving: &[usize]) -> String {
     let mut names: Vec<&str> = moving.iter().map(|&p| model.bodies[parts[p].body].name.as_str()).collect();
     names.dedup();
-    let body = match names.as_slice() {
+    match names.as_slice() {
         [one] => format!("subdomain {one}"),
         [first, rest @ ..] => format!("subdomain {first} (with {})", rest.join(", ")),
         [] => String::new(),
-    };
-    Error::FreeBody { body, mode }
+    }
 }
 
 /// Connected parts of all bodies, and the part of every node.
