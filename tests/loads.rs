@@ -3,6 +3,7 @@
 mod common;
 
 use common::*;
+use midplane::error::Code;
 use midplane::run::{Clock, Place, State, Totals, march};
 use midplane::shape::Shape;
 
@@ -156,6 +157,26 @@ fn a_free_body_is_reported_by_name_and_mode() {
             error.to_string().replace("(-1.0000, -0.0000)", "(1.0000, 0.0000)").replace("-0.0000", "0.0000");
         assert!(message.contains(expected), "{message}\n  should contain\n{expected}");
         assert_eq!(error.exit_code(), 2);
+    }
+}
+
+/// A body that only springs hold is known to ε E/(K h): told below K h/E = 1e-6, free below 1e-12 (h = 1/3, E = 1e4).
+#[test]
+fn a_body_on_springs_of_nothing_is_hardly_held_or_free() {
+    let on = |k: f64| {
+        let law = format!(
+            r#""law": {{ "type": "elastic", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e} }}"#
+        );
+        let steps = r#"{ "name": "go", "fix": { "lower.bottom": ["x", "y"] } }"#;
+        two_squares(HEAD, &law, steps, "")
+    };
+    assert!(on(1.0).unwrap().warnings.is_empty());
+    let told = on(1e-3).unwrap().warnings;
+    assert!(told.len() == 1 && told[0].code == Code::HardlyHeld, "{told:?}");
+    assert!(told[0].what.contains("subdomain upper is hardly held"), "{told:?}");
+    for k in [1e-10, 5e-324] {
+        let message = on(k).unwrap_err().to_string();
+        assert!(message.contains("subdomain upper can move freely"), "{message}");
     }
 }
 

@@ -1,10 +1,12 @@
 //! Rigid motions that nothing holds, or next to nothing: found before anything is solved, and named.
 //!
 //! Every connected part of every body has three rigid motions. Supports and joints resist combinations of them; the Gram
-//! matrix of these resistances (as yes or no, not as stiffness) must have no null space.
+//! matrix of these resistances must have no null space. A joint counts by K h/E, up to 1: softer springs than the bodies
+//! leave fewer digits of a motion that they alone resist.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::stiffness::compliance;
 use super::{InitialTraction, Stage};
 use crate::assembly::Model;
 use crate::error::{Code, Error, Result, Warning};
@@ -42,14 +44,15 @@ pub(super) fn refuse_free_bodies(
     };
     let mut gram = DMatrix::<f64>::zeros(3 * parts.len(), 3 * parts.len());
     for (p, part) in parts.iter().enumerate() {
-        for &node in &part.nodes {
-            for d in 0..2 {
-                if stage.held[model.components * node + d] {
-                    let row = [0, 1, 2].map(|mode| motion(part, mode, node)[d]);
-                    for i in 0..3 {
-                        for j in 0..3 {
-                            gram[(3 * p + i, 3 * p + j)] += row[i] * row[j];
-                        }
+        for d in 0..2 {
+            let held: Vec<usize> =
+                part.nodes.iter().copied().filter(|node| stage.held[model.components * node + d]).collect();
+            let share = 1.0 / held.len() as f64; // many nodes hold no more than a few
+            for node in held {
+                let row = [0, 1, 2].map(|mode| motion(part, mode, node)[d]);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        gram[(3 * p + i, 3 * p + j)] += share * row[i] * row[j];
                     }
                 }
             }
@@ -76,7 +79,9 @@ pub(super) fn refuse_free_bodies(
                 }
             }
         }
-        let resists = law.elastic_stiffness().map(|k| f64::from(u8::from(k > 0.0)));
+        let compliance = compliance(model, joint);
+        let share = 1.0 / joint.coupling.points.len() as f64;
+        let resists = law.elastic_stiffness().map(|k| share * (k * compliance).min(1.0));
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
                 let sum: f64 = (0..jump_i.len()).map(|k| resists[k % 2] * jump_i[k] * jump_j[k]).sum();

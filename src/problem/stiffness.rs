@@ -21,7 +21,7 @@ pub fn stiffness_number(model: &Model, joint: &Joint, law: &Law) -> f64 {
 }
 
 /// h/E, the largest along a joint.
-fn compliance(model: &Model, joint: &Joint) -> f64 {
+pub(super) fn compliance(model: &Model, joint: &Joint) -> f64 {
     let coupling = &joint.coupling;
     let young = |side: usize, e: usize| {
         let node = coupling.nodes(side, e)[0];
