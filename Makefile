@@ -96,6 +96,13 @@ test: | tools     ## all tests, in release, so that dependencies compile once
 
 BENCHED := results/bench/scenes.csv $(wildcard results/bench/peers*.csv)
 
+# every row of docs/EXTREMES.md; `rows=B9` or `rows="B1 B2"` tries these only, without touching the docs
+extremes: $(MIDPLANE) $(VENV)  ## try every extreme, write docs/EXTREMES.md and results/extremes/report.html, ten minutes
+	$(PYTHON) pipeline/extremes $(MIDPLANE) -o results/extremes $(or $(rows),--docs docs)
+
+extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/extremes-quick/report.html
+	$(PYTHON) pipeline/extremes $(MIDPLANE) -o results/extremes-quick --quick $(rows)
+
 bench: $(MIDPLANE) $(VENV)  ## whole runs of 10 000 to 1 000 000 dofs, then the kernels: results/bench/, some minutes
 	python3 benches/scenes.py $(MIDPLANE)
 	$(PYTHON) benches/plot.py $(BENCHED) -o results/bench/bench.png
@@ -182,4 +189,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools build test trade trade-full trade-quick trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools build test extremes extremes-quick trade trade-full trade-quick trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

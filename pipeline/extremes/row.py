@@ -1,0 +1,96 @@
+"""Rows of the campaign: what is tried, what must happen, what was found, and how far that is from the limit."""
+
+from dataclasses import dataclass, field
+
+ROWS = []
+
+
+@dataclass
+class Claim:
+    """One thing that a row asserts. `margin` is limit / got where both are numbers: above 1 is within."""
+
+    what: str
+    got: str
+    limit: str
+    good: bool
+    margin: float | None = None
+
+
+@dataclass
+class Curve:
+    """A graph of a row: series are (label, x, y); y is drawn on a logarithmic axis."""
+
+    name: str
+    title: str
+    x_label: str
+    y_label: str
+    series: list
+    line: float | None = None  # the limit, if it is the same everywhere
+
+
+@dataclass
+class Trial:
+    """What a row is handed: the program, and where it puts its findings."""
+
+    program: object
+    quick: bool
+    claims: list = field(default_factory=list)
+    curves: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+
+    def below(self, what, got, limit):
+        """A number must not exceed a limit; NaN does."""
+        got = float(got)
+        margin = float("inf") if got == 0 else limit / got
+        self.claims.append(Claim(what, f"{got:.1e}", f"≤ {limit:.1e}", bool(got <= limit), margin))
+
+    def within(self, what, got, low, high):
+        """A number must lie between two others."""
+        good = bool(low <= got <= high)
+        self.claims.append(Claim(what, f"{got:.6g}", f"{low:.6g} … {high:.6g}", good))
+
+    def equal(self, what, got, expected):
+        """Two values must be the same."""
+        self.claims.append(Claim(what, str(got), str(expected), bool(got == expected)))
+
+    def holds(self, what, good, got="", limit="yes"):
+        """Something must be true."""
+        self.claims.append(Claim(what, str(got) or ("yes" if good else "no"), limit, bool(good)))
+
+    def refused(self, what, run, *texts, code=2):
+        """The program must refuse: exit code, one message, and in it the given texts; nothing may be written."""
+        missing = [text for text in texts if text not in run.message]
+        got = f"exit {run.code}: {first_line(run.message)}"
+        if missing:
+            got += f" (without {', '.join(map(repr, missing))})"
+        good = run.code == code and not missing and (code != 2 or not run.wrote())
+        self.claims.append(Claim(what, got, f"exit {code}" + "".join(f", “{t}”" for t in texts), good))
+
+    def warned(self, what, run, code):
+        """The program must warn with this code."""
+        got = ", ".join(run.warning_codes()) or "no warning"
+        self.claims.append(Claim(what, got, f"warns {code}", code in run.warning_codes()))
+
+    def silent(self, what, run, code):
+        """The program must not warn with this code."""
+        got = ", ".join(run.warning_codes()) or "no warning"
+        self.claims.append(Claim(what, got, f"no {code}", code not in run.warning_codes()))
+
+    def note(self, text):
+        """A line for the report: a measured value without a limit, or why an expectation was changed."""
+        self.notes.append(text)
+
+
+def first_line(text):
+    lines = text.strip().splitlines()
+    return lines[0].removeprefix("error: ")[:120] if lines else ""
+
+
+def row(number, tried, expected):
+    """Registers a function as a row."""
+
+    def register(function):
+        ROWS.append((number, tried, expected, function))
+        return function
+
+    return register

@@ -1,0 +1,59 @@
+"""Scenes as dictionaries."""
+
+import numpy as np
+
+
+def elastic(kn, kt=None):
+    return {"type": "elastic", "normal_stiffness": kn, "tangential_stiffness": kn if kt is None else kt}
+
+
+def coulomb(kn, kt, mu, **more):
+    return {
+        "type": "coulomb",
+        "normal_stiffness": kn,
+        "tangential_stiffness": kt,
+        "friction_coefficient": mu,
+        **more,
+    }
+
+
+def cracking(**more):
+    """The law of the paper's Example 2, its energies read in N/mm."""
+    law = {
+        "type": "cracking",
+        "normal_stiffness": 1e7,
+        "tangential_stiffness": 1e7,
+        "tensile_strength": 3.0,
+        "cohesion": 4.0,
+        "tan_friction": 0.8785,
+        "fracture_energy_i": 2e-4,
+        "fracture_energy_iia": 2e-3,
+        "dilatancy_stress": 0.0,
+    }
+    return {**law, **more}
+
+
+def scene(materials, joints, steps, plane="strain", **more):
+    """Bodies by name with (E, ν), joints by name with (side_a, side_b, law) and more keys, steps."""
+    interfaces = {}
+    for name, (a, b, law, *keys) in joints.items():
+        interfaces[name] = {"side_a": a, "side_b": b, "law": law, **(keys[0] if keys else {})}
+    return {
+        "plane": plane,
+        "subdomains": {body: {"msh": f"{body}.msh", "material": body} for body in materials},
+        "materials": {body: {"young": e, "poisson": nu} for body, (e, nu) in materials.items()},
+        "interfaces": interfaces,
+        "steps": [{"name": f"step {i + 1}", **step} for i, step in enumerate(steps)],
+        **more,
+    }
+
+
+def number(x):
+    """A number inside a formula, every digit kept."""
+    return f"({float(x)!r})"
+
+
+def relative(got, exact, scale=None):
+    """Largest error, of the largest exact value."""
+    got, exact = np.asarray(got, float), np.asarray(exact, float)
+    return np.abs(got - exact).max() / (np.abs(exact).max() if scale is None else scale)
