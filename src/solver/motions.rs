@@ -123,8 +123,8 @@ mod tests {
     /// Two separate triangles: one is held at a point, which leaves its rotation; the other floats.
     #[test]
     fn supports_leave_the_motions_that_they_do_not_resist() {
-        let cells = [[0, 1, 2], [3, 4, 5]];
-        let pattern = Pattern::new(2, 6, || cells.iter().map(|cell| cell.iter().copied()));
+        let cells = [[0_usize, 1, 2], [3, 4, 5]];
+        let pattern = Pattern::new(2, 6, || cells.iter().map(|cell| (0, &cell[..])));
         let x = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 3.0, 0.0, 4.0, 0.0, 3.0, 1.0];
         let mut held = [false; 12];
         (held[0], held[1]) = (true, true);
