@@ -34,8 +34,15 @@ fn scene(end: f64, control: &str, strategy: &str) -> String {
 
 #[test]
 fn the_exact_path_is_followed_however_brittle_the_bar() {
-    for (length, strategy) in [(1.0, "condensed"), (1.0, "plain"), (10.0, "condensed"), (100.0, "condensed")]
-    {
+    for (length, strategy, control) in [
+        (1.0, "condensed", "auto"),
+        (1.0, "plain", "auto"),
+        (10.0, "condensed", "auto"),
+        (100.0, "condensed", "auto"),
+        (1.0, "condensed", "arclength"),
+        (1.0, "plain", "arclength"),
+        (10.0, "condensed", "arclength"),
+    ] {
         let c = length / E + 1.0 / KN;
         let exact = |s: f64| s * c - GI / CHI * (s / CHI).ln();
         let peak = CHI * c;
@@ -45,12 +52,12 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
                 [x, y]
             })
         };
-        let problem = bind(&scene(end, "auto", strategy), vec![bar(-length / 2.0), bar(0.0)]).unwrap();
+        let problem = bind(&scene(end, control, strategy), vec![bar(-length / 2.0), bar(0.0)]).unwrap();
         let march = try_solve(&problem);
         let (mut lowest, mut turn) = (CHI, (f64::INFINITY, 0.0));
         for (state, level) in march.states.iter().zip(&march.load_factors) {
             let (u, s) = (level * end, state.snapshot.tractions[0][0][0]);
-            let what = format!("L = {length}, {strategy}: u = {u:e}, stress {s}");
+            let what = format!("L = {length}, {strategy}, {control}: u = {u:e}, stress {s}");
             let on_path = if state.dissipated > 0.0 { exact(s) } else { s * c };
             // below a hundredth of the strength what is left to dissipate is lost in the law's own tolerance
             if s > 0.009 * CHI || state.dissipated == 0.0 {
@@ -62,7 +69,7 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
             }
         }
         println!(
-            "L = {length}, {strategy}: {} increments, followed to {lowest:e}, turning point {turn:?}",
+            "L = {length}, {strategy}, {control}: {} increments, followed to {lowest:e}, turning point {turn:?}",
             march.states.len()
         );
         assert!(lowest < 0.01 * CHI, "L = {length}: followed to {lowest} only");
@@ -101,5 +108,26 @@ fn an_increment_that_goes_too_far_from_the_start_is_divided() {
         let s = state.snapshot.tractions[0][0][0];
         let u = if state.dissipated > 0.0 { exact(s) } else { s * c };
         close(level * end, u, 1e-6, CHI * c, "on the path");
+    }
+}
+
+#[test]
+fn a_leap_under_load_control_is_told() {
+    // far beyond the snap-back in one increment: the state is on the path, but was not reached along it
+    for (length, leaps) in [(0.3, true), (0.05, false)] {
+        let c = length / E + 1.0 / KN;
+        assert_eq!(c * CHI * CHI / GI > 1.0, leaps, "snaps back");
+        let end = 20.0 * CHI * c;
+        let bar = |y: f64| {
+            rectangle(&even(0.0, 0.02, 1), &even(y, y + length / 2.0, 3), Shape::Quadrilateral4, |x, y| {
+                [x, y]
+            })
+        };
+        let text = scene(end, "load", "condensed").replace("\"increments\": 40", "\"increments\": 1");
+        let march = try_solve(&bind(&text, vec![bar(-length / 2.0), bar(0.0)]).unwrap());
+        let totals = march.end.unwrap();
+        let s = march.states[0].snapshot.tractions[0][0][0];
+        close(s, CHI * (-(end - s * c) * CHI / GI).exp(), 1e-6, CHI, "on the path");
+        assert_eq!(!totals.leaps.is_empty(), leaps, "L = {length}: {:?}", totals.leaps);
     }
 }

@@ -72,8 +72,7 @@ impl Show {
                 if let Some(bar) = &self.bar {
                     bar.set_position(row.increment as u64);
                 }
-                let halved = totals.halved - self.totals.as_ref().map_or(0, |before| before.halved);
-                self.line(increment(row, number, of, halved).trim_end());
+                self.line(increment(row, number, of, &marks(totals, self.totals.as_ref())).trim_end());
                 self.totals = Some(totals.clone());
             }
         }
@@ -123,6 +122,10 @@ impl Show {
             .collect();
         if let Some(totals) = self.totals.as_ref().filter(|totals| totals.iterations > 0) {
             let Totals { increments, iterations, halved, energy_balance, .. } = totals;
+            if !totals.leaps.is_empty() {
+                let cure = "\"control\": \"auto\" follows the path between";
+                self.warning(&format!("{} increments leapt to another branch; {cure}", totals.leaps.len()));
+            }
             self.line(&format!(
                 "solved   {increments} increments, {iterations} iterations, {halved} cuts; energies balance to {energy_balance:.1e}"
             ));
@@ -135,15 +138,29 @@ impl Show {
     }
 }
 
-/// A row of the table; a mark if the increment had to be cut in parts.
-fn increment(row: &Row, number: usize, of: usize, halved: usize) -> String {
-    let cut = match halved {
-        0 => String::new(),
-        1 => "cut once".into(),
-        n => format!("cut {n} times"),
-    };
+/// What happened in an increment besides: it had to be cut in parts, the path turned, it leapt to another branch.
+fn marks(now: &Totals, before: Option<&Totals>) -> String {
+    let count = |of: &dyn Fn(&Totals) -> usize| of(now) - before.map_or(0, of);
+    let mut marks = Vec::new();
+    match count(&|totals| totals.halved) {
+        0 => {}
+        1 => marks.push("cut once".into()),
+        n => marks.push(format!("cut {n} times")),
+    }
+    for (what, places, new) in [
+        ("turns at", &now.turns, count(&|totals| totals.turns.len())),
+        ("leaps by", &now.leaps, count(&|totals| totals.leaps.len())),
+    ] {
+        let latest = &places[places.len() - new..];
+        marks.extend(latest.iter().map(|(_, _, level)| format!("{what} {level:.6}")));
+    }
+    marks.join(", ")
+}
+
+/// A row of the table.
+fn increment(row: &Row, number: usize, of: usize, marks: &str) -> String {
     format!(
-        "{:<20} {:>9} {:>8.4} {:>6} {:>10.1e} {:>10.1e}  {cut}",
+        "{:<20} {:>9} {:>8.4} {:>6} {:>10.1e} {:>10.1e}  {marks}",
         row.step,
         format!("{number}/{of}"),
         row.load_factor,

@@ -58,7 +58,9 @@ impl<'a, 'b> Course<'a, 'b> {
             let initial = self.initial.clone();
             let start = Start::new(problem, stage, &initial, &self.state.snapshot.u, &self.state.reactions);
             match stage.control {
-                Control::Auto if !active(problem).is_empty() => self.path_step(step, stage, &start)?,
+                Control::Auto | Control::Arclength if !active(problem).is_empty() => {
+                    self.path_step(step, stage, &start)?
+                }
                 _ => self.load_step(step, stage, &start)?,
             }
         }
@@ -91,8 +93,18 @@ impl<'a, 'b> Course<'a, 'b> {
                 let reached = if level + 1.001 * width >= goal { goal } else { level + width };
                 let load = start.at(reached)?;
                 let complete = !thrifty || number == stage.increments;
-                match self.engine.solve(&self.state, &load, (reached - level) / last, complete) {
-                    Ok(found) => {
+                let tried = match self.engine.solve(&self.state, &load, (reached - level) / last, complete) {
+                    Ok(found) => self.leap(start, [level, reached], last, found)?,
+                    Err(Failure::Unconverged(why)) => Err(why),
+                    Err(Failure::Unusable(error)) => {
+                        return Err(unusable(stage, number, self.totals.increments, error));
+                    }
+                };
+                match tried {
+                    Ok((found, leap)) => {
+                        let increment = self.totals.increments + 1;
+                        let leap = leap.map(|level| (increment, stage.name.clone(), level));
+                        self.totals.leaps.extend(leap);
                         self.engine.accept();
                         iterations += found.iterations;
                         if found.iterations <= EASY {
@@ -101,10 +113,7 @@ impl<'a, 'b> Course<'a, 'b> {
                         self.state.accept(problem, found, load);
                         (last, level) = (reached - level, reached);
                     }
-                    Err(Failure::Unusable(error)) => {
-                        return Err(unusable(stage, number, self.totals.increments, error));
-                    }
-                    Err(Failure::Unconverged(why)) => {
+                    Err(why) => {
                         iterations += why.iterations;
                         self.totals.halved += 1;
                         width = 0.5 * (reached - level);

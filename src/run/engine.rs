@@ -24,11 +24,11 @@ pub(super) enum Failure {
 pub(super) struct Path<'a> {
     /// The step's loads.
     pub(super) ramp: &'a Ramp,
-    /// Energy to dissipate.
-    pub(super) amount: f64,
-    /// The last change of unknowns and load level is repeated this many times; zero: the path leaves a sound state.
+    /// Energy to dissipate; none: as far as the predicted change of the jumps.
+    pub(super) amount: Option<f64>,
+    /// The last change of unknowns and load level is repeated this many times; zero: off the tangent.
     pub(super) ahead: f64,
-    /// The last change of the load level.
+    /// The last change of the load level; off the tangent the first one.
     pub(super) last: f64,
 }
 
@@ -44,8 +44,7 @@ pub(super) trait Engine {
     /// Displacements are recovered if they are asked for (`complete`) or needed.
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
 
-    /// Equilibrium that dissipates `amount` more than the last accepted one at `level`, wherever its load level is; from
-    /// `ahead` times the last change, or off the tangent where that is none.
+    /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure>;
 
     /// Displacements and reactions of the last accepted increment, if the engine goes without.

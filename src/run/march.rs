@@ -37,6 +37,8 @@ pub struct Totals {
     pub turns: Vec<(usize, String, f64)>,
     /// What was taken from the shelf, such as "factor of lower".
     pub reused: Vec<String>,
+    /// Where an increment of the load level leapt to another branch: number of the increment, step, load level.
+    pub leaps: Vec<(usize, String, f64)>,
     /// Largest |work − stored − dissipated|, relative.
     pub energy_balance: f64,
 }

@@ -2,11 +2,13 @@
 //!
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
+mod arclength;
 mod clock;
 mod course;
 mod engine;
 mod failure;
 mod folder;
+mod leap;
 mod loading;
 mod march;
 pub mod memory;

@@ -10,8 +10,8 @@ use crate::assembly::{Pattern, Symmetric};
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
-    Affine, Blocks, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain, Point, Ramp,
-    Respond, Settings, Solution,
+    Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
+    Point, Ramp, Respond, Settings, Solution,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -216,16 +216,23 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         let laws = Laws { problem: self.problem, old: &state.snapshot.states };
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
+        let from = Point { x: self.unknowns.clone(), level };
         let start = if path.ahead > 0.0 {
             let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
             let x = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
-            Point { x, level: level + path.ahead * path.last }
+            Ok(Point { x, level: level + path.ahead * path.last })
         } else {
-            let from = Point { x: self.unknowns.clone(), level };
-            let left = newton.leave(form, &laws, &from, &load, path.amount, self.settings);
-            left.map_err(Failure::Unconverged)?
+            match path.amount {
+                Some(amount) => newton.leave(form, &laws, &from, &load, amount, self.settings),
+                None => newton.ahead(form, &laws, &from, &load, path.last, self.settings),
+            }
         };
-        let followed = newton.follow(form, &laws, start, &load, path.amount, self.settings);
+        let start = start.map_err(Failure::Unconverged)?;
+        let constraint = match path.amount {
+            Some(amount) => Constraint::Dissipate(amount),
+            None => Constraint::between(form, &from.x, &start.x),
+        };
+        let followed = newton.follow(form, &laws, start, &load, &constraint, self.settings);
         let (iterate, level) = followed.map_err(Failure::Unconverged)?;
         let at = |ends: &[Vec<f64>; 2]| -> Vec<f64> {
             ends[0].iter().zip(&ends[1]).map(|(start, end)| start + level * (end - start)).collect()

@@ -1,4 +1,5 @@
-//! A step along the path of equilibria: by load level while nothing dissipates, by dissipated energy while something does.
+//! A step along the path of equilibria: by load level while nothing dissipates, by dissipated energy while something does;
+//! or by the change of the jumps throughout (`arclength`).
 //!
 //! No number is set by hand. The first step beyond the sound state dissipates a small part of the elastic energy that is
 //! stored then; later ones as much more or less as iterations allow, with no more change of the load level than the step's
@@ -11,19 +12,20 @@ use super::march::Place;
 use super::state::{Found, State};
 use crate::error::Result;
 use crate::problem::Stage;
+use crate::scene::Control;
 use crate::solver::{Ramp, Unconverged};
 
 /// The first step on the path dissipates this part of the elastic energy.
 const FIRST: f64 = 1e-2;
 /// Iterations of a step that is neither too small nor too large.
-const USUAL: f64 = 5.0;
+pub(super) const USUAL: f64 = 5.0;
 /// A step that fails is tried again with this part of its energy, at most so many times.
-const SMALLER: f64 = 0.25;
-const SMALLEST: usize = 20;
+pub(super) const SMALLER: f64 = 0.25;
+pub(super) const SMALLEST: usize = 20;
 /// A step on the path goes at most this many increments far: in the load level, and in what the joints carry, of which
 /// `TRACTIONS` times an increment's part may change.
-const WIDE: f64 = 2.0;
-const TRACTIONS: f64 = 4.0;
+pub(super) const WIDE: f64 = 2.0;
+pub(super) const TRACTIONS: f64 = 4.0;
 /// An increment of the load level that dissipates more than so many times what the last one makes expect has leapt to another
 /// branch.
 const LEAP: f64 = 4.0;
@@ -35,16 +37,18 @@ const EXHAUSTED: f64 = 1e-4;
 const MOST: usize = 1000;
 
 /// Iterations of a step, or why there is none.
-type Step = std::result::Result<usize, Unconverged>;
+pub(super) type Step = std::result::Result<usize, Unconverged>;
 
 /// Where the path stands.
-struct Standing {
-    level: f64,
+pub(super) struct Standing {
+    pub(super) level: f64,
     /// The last change of the load level, and the energy that it dissipated.
-    change: f64,
+    pub(super) change: f64,
     spent: f64,
     /// Energy of the next step.
     amount: f64,
+    /// Length of the next step, of the last one.
+    pub(super) ratio: f64,
     /// The most that the joints have carried, as `State::carried`.
     most: f64,
 }
@@ -57,16 +61,17 @@ impl<'a> Course<'a, '_> {
         self.engine.prepare(Some(&ramp), &[]);
         self.state.open(None);
         let part = 1.0 / stage.increments as f64;
-        let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, most: 0.0 };
+        let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, ratio: 1.0, most: 0.0 };
         let mut rising = 0.0;
         let mut passed = [(self.state.dissipated, 0.0); 3];
         for number in 1..=MOST * stage.increments {
             self.stage("solve");
             let before = at.level;
             at.most = at.most.max(self.state.carried(self.problem));
-            let found = match at.spent > 0.0 {
-                true => self.along(start, &ramp, &mut at, part),
-                false => self.sound(start, &ramp, &mut at, part),
+            let found = match stage.control {
+                Control::Arclength => self.arc(start, &ramp, &mut at, part),
+                _ if at.spent > 0.0 => self.along(start, &ramp, &mut at, part),
+                _ => self.sound(start, &ramp, &mut at, part),
             };
             let iterations = match found? {
                 Ok(iterations) => iterations,
@@ -114,7 +119,7 @@ impl<'a> Course<'a, '_> {
         let mut amount = FIRST * self.state.stored;
         let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
         for _ in 0..SMALLEST {
-            let path = Path { ramp, amount, ahead: 0.0, last: 0.0 };
+            let path = Path { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
             match self.engine.follow(&self.state, at.level, &path) {
                 Ok((found, level)) if self.far(at, &found) <= WIDE * TRACTIONS * part => {
                     return self.take(start, found, at, level, amount).map(Ok);
@@ -141,7 +146,7 @@ impl<'a> Course<'a, '_> {
         let mut amount = at.amount;
         let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
         for _ in 0..SMALLEST {
-            let path = Path { ramp, amount, ahead: amount / at.spent, last: at.change };
+            let path = Path { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
             match self.engine.follow(&self.state, at.level, &path) {
                 Ok((found, level)) if level < 1.0 => {
                     // how far this goes, in increments of the scene
@@ -172,14 +177,14 @@ impl<'a> Course<'a, '_> {
     }
 
     /// Change of what the joints carry, relative to what they carry now; of exhausted joints, to a small part of the most.
-    fn far(&self, at: &Standing, found: &Found) -> f64 {
+    pub(super) fn far(&self, at: &Standing, found: &Found) -> f64 {
         let carried = self.state.carried(self.problem).max(EXHAUSTED * EXHAUSTED * at.most);
         let change = self.state.change(self.problem, found);
         if change == 0.0 { 0.0 } else { (change / carried).sqrt() }
     }
 
     /// An increment to a load level if it has an equilibrium that dissipates no more than an amount.
-    fn by_load(
+    pub(super) fn by_load(
         &mut self,
         start: &Start,
         at: &mut Standing,
@@ -197,7 +202,7 @@ impl<'a> Course<'a, '_> {
     }
 
     /// Accepts what was found at a load level. Returns its iterations.
-    fn take(
+    pub(super) fn take(
         &mut self,
         start: &Start,
         found: Found,
@@ -217,11 +222,12 @@ impl<'a> Course<'a, '_> {
 }
 
 /// Extreme load level of the parabola through three points (dissipated energy, load level); the middle one's where there is
-/// none.
+/// none, or where the path has a corner: a parabola would be far off.
 fn vertex([(d0, l0), (d1, l1), (d2, l2)]: [(f64, f64); 3]) -> f64 {
     let (before, after) = ((l1 - l0) / (d1 - d0), (l2 - l1) / (d2 - d1));
     let curvature = (after - before) / (d2 - d0);
     let slope = before + curvature * (d1 - d0);
-    let level = l1 - slope * slope / (4.0 * curvature);
-    if level.is_finite() { level } else { l1 }
+    let beyond = -slope * slope / (4.0 * curvature);
+    let near = beyond.abs() <= 0.25 * (l1 - l0).abs().max((l2 - l1).abs());
+    if near { l1 + beyond } else { l1 }
 }

@@ -131,6 +131,18 @@ impl State {
         problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
     }
 
+    /// What the trapezium has of the work of the joints beyond what they store and dissipate in an increment
+    /// [force × length].
+    pub(super) fn released(&self, problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let (law, _) = &problem.laws[answer.joint];
+            let points = problem.model.joints[answer.joint].coupling.points.iter();
+            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
+            points.zip(states).map(|(p, (old, new))| -p.weight * beyond_trapezium(law, old, new)).sum::<f64>()
+        };
+        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+    }
+
     /// What the joints carry, as the mean square of their tractions times length [stress² × length].
     pub(super) fn carried(&self, problem: &Problem) -> f64 {
         let joints = problem.model.joints.iter().zip(&self.snapshot.states);
@@ -176,13 +188,11 @@ impl State {
             let (law, _) = &problem.laws[joint];
             let old = &mut self.snapshot.states[joint];
             let points = &problem.model.joints[joint].coupling.points;
-            for ((point, old), Answer { state: new, dissipation, .. }) in points.iter().zip(old).zip(memory) {
+            for ((point, old), answer) in points.iter().zip(old).zip(memory) {
                 let area = problem.model.thickness * point.weight;
-                let along = elastic_energy(law, &new) - elastic_energy(law, old) + dissipation;
-                let trapezium = 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump));
-                self.work += area * (along - trapezium);
-                self.dissipated += area * dissipation;
-                *old = new;
+                self.work += area * beyond_trapezium(law, old, &answer);
+                self.dissipated += area * answer.dissipation;
+                *old = answer.state;
             }
             self.snapshot.jumps[joint] = jumps;
             self.found[joint] = true;
@@ -294,6 +304,12 @@ impl State {
         }
         values
     }
+}
+
+/// ∫ t · dr − ½ (t₀ + t₁) · Δr of an increment at a law point.
+fn beyond_trapezium(law: &Law, old: &law::State, Answer { state: new, dissipation, .. }: &Answer) -> f64 {
+    let along = elastic_energy(law, new) - elastic_energy(law, old) + dissipation;
+    along - 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump))
 }
 
 /// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].

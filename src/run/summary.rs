@@ -64,6 +64,8 @@ struct Solution {
     factorisations: usize,
     /// Where the path of equilibria turned: after which increment, in which step, at which load level.
     turns: Vec<(usize, String, f64)>,
+    /// Where an increment of the load level leapt to another branch: in which increment, in which step, at which load level.
+    leaps: Vec<(usize, String, f64)>,
     /// "joined", "in parts", "condensed", "blocks" or "plain".
     strategy: &'static str,
     /// Multiplications and additions of both forms, estimated; none where there is no choice.
@@ -165,6 +167,7 @@ pub(super) fn summary<'a>(
             iterations: totals.iterations,
             halved: totals.halved,
             turns: totals.turns.clone(),
+            leaps: totals.leaps.clone(),
             factorisations: totals.factorisations,
             strategy: totals.strategy,
             operations: totals.estimate.map(|e| Operations {

@@ -50,8 +50,10 @@ pub enum Control {
     /// The load level: loads and displacements grow in equal parts.
     #[default]
     Load,
-    /// The load level while nothing dissipates, else the energy that the joints dissipate; loads and displacements fall
+    /// The change of the jumps of the joints, in steps that are as long as iterations allow: loads and displacements fall
     /// where the path of equilibria does. `increments` is the least number that the step is divided in.
+    Arclength,
+    /// The load level while nothing dissipates, else the energy that the joints dissipate, along the same path.
     Auto,
 }
 

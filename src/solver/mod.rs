@@ -37,7 +37,7 @@ pub use measure::{Measure, Ramp};
 pub use newton::{Iterate, Newton, Settings, Unconverged};
 pub use ordering::{Order, nested_dissection};
 pub use parts::{Parts, PartsFactor};
-pub use path::{Affine, Point};
+pub use path::{Affine, Constraint, Point};
 pub use plain::Plain;
 pub use plan::{Factor, Plan};
 pub use refine::{Factored, Solution};

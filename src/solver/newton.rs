@@ -20,6 +20,9 @@ const SUFFICIENT: f64 = 1e-4;
 pub(super) const STALLED: f64 = 0.5;
 /// What rounding leaves is not taken for a solution above this.
 pub(super) const UNUSABLE: f64 = 1e-6;
+/// A change in the last digit, and how many times the change of the residual that it brings counts as rounding.
+const DIGIT: f64 = 2.0 * f64::EPSILON;
+const SHOWN: f64 = 4.0;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
 
@@ -113,7 +116,7 @@ impl Newton {
         for iterations in 0..=settings.iterations {
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || form.rounding(&x, &now.forces, target, &self.tangents).min(UNUSABLE);
+            let rounded = || self.rounding(form, laws, &x, &now, target);
             if iterations > 0 && (now.error <= settings.tolerance || stalled && now.error <= rounded()) {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
                 return Ok(Iterate { x, jumps, tractions, forces, memory, iterations, residuals });
@@ -137,6 +140,26 @@ impl Newton {
         }
         let reason = format!("out of balance by {:.1e} after {} iterations", now.error, settings.iterations);
         Err(unconverged(form, &reason, &now, settings.iterations))
+    }
+
+    /// What rounding may leave of the residual: in the form's own terms, or as the laws show when the unknowns change in their
+    /// last digit. A point that has lost its strength to the last digits turns those into much larger tractions.
+    pub(super) fn rounding<L: Respond>(
+        &self,
+        form: &impl Form,
+        laws: &L,
+        x: &[f64],
+        now: &Evaluation<L::Memory>,
+        target: &[f64],
+    ) -> f64 {
+        let own = form.rounding(x, &now.forces, target, &self.tangents);
+        let last = |(i, x): (usize, &f64)| x * (1.0 + if i % 2 == 0 { DIGIT } else { -DIGIT });
+        let beside: Vec<f64> = x.iter().enumerate().map(last).collect();
+        let shown = evaluate(form, laws, &beside, target).map_or(0.0, |there| {
+            let change: Vec<f64> = there.residual.iter().zip(&now.residual).map(|(b, a)| b - a).collect();
+            form.error(&change, x, &now.forces, target)
+        });
+        own.max(SHOWN * shown).min(UNUSABLE)
     }
 
     /// J⁻¹ R.

@@ -1,18 +1,21 @@
-//! Path following by dissipated energy: the load level λ is one more unknown, the energy that the joints dissipate in an
-//! increment is one more equation. It never decreases, so that the path is followed through limit and turning points.
+//! Path following: the load level λ is one more unknown, and how far an increment goes is one more equation, so that the
+//! path is followed through limit and turning points.
 //!
 //! ```text
 //! R(x) = A(x) − b₀ − λ b₁ = 0          ⎡ J   −b₁ ⎤ ⎡δx⎤   ⎡−R⎤
-//! g(x) = Σ h w ΔD(r) − Δτ = 0          ⎣ cᵀ    0 ⎦ ⎣δλ⎦ = ⎣−g⎦      c = ∂g/∂x
+//! g(x) = 0                             ⎣ cᵀ    0 ⎦ ⎣δλ⎦ = ⎣−g⎦      c = ∂g/∂x
+//!
+//! g = Σ h w ΔD(r) / Δτ − 1             the energy that the joints dissipate: it never decreases
+//! g = Σ h w p·Δr / Σ h w p·p − 1       the change of the jumps along a predicted one p: a plane across the path
 //! ```
 //!
 //! Two solves with one factor: δλ = (c·y − g) / (c·z), δx = δλ z − y with y = J⁻¹ R and z = J⁻¹ b₁. The sum of the laws' own
 //! dissipation is taken: formulas from energies hold for joints that unload to their origin, ours unload elastically.
 
-use super::newton::{Evaluation, STALLED, UNUSABLE, evaluate, unconverged};
+use super::newton::{Evaluation, STALLED, evaluate, unconverged};
 use super::{Form, Iterate, Newton, Respond, Settings, Unconverged};
 
-/// The constraint is met to this, relative to Δτ.
+/// The constraint is met to this: it says how far to go, not where the path is.
 const MET: f64 = 1e-2;
 /// Most halvings of a step.
 const HALVINGS: usize = 8;
@@ -41,6 +44,59 @@ impl Affine {
     }
 }
 
+/// How far an increment goes.
+#[derive(Debug, Clone)]
+pub enum Constraint {
+    /// As far as it dissipates this energy.
+    Dissipate(f64),
+    /// From the jumps of every active joint by a change of them, or what is across it.
+    Move {
+        /// The jumps.
+        from: Vec<Vec<f64>>,
+        /// Their change.
+        by: Vec<Vec<f64>>,
+    },
+}
+
+impl Constraint {
+    /// By the change of the jumps between two sets of unknowns.
+    pub fn between(form: &impl Form, from: &[f64], to: &[f64]) -> Constraint {
+        let jumps = |x: &[f64]| -> Vec<Vec<f64>> {
+            let of = |(&k, a): (&usize, Vec<f64>)| form.joints()[k].jumps_of(&a);
+            form.active().iter().zip(form.coefficients(x)).map(of).collect()
+        };
+        let (from, mut by) = (jumps(from), jumps(to));
+        by.iter_mut().flatten().zip(from.iter().flatten()).for_each(|(by, from)| *by -= from);
+        Constraint::Move { from, by }
+    }
+
+    /// g.
+    fn missing<L: Respond>(&self, form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> f64 {
+        match self {
+            Constraint::Dissipate(amount) => dissipated(form, laws, now) / amount - 1.0,
+            Constraint::Move { from, by } => {
+                let moved = (now.jumps.iter().zip(from))
+                    .map(|(now, from)| now.iter().zip(from).map(|(now, from)| now - from).collect())
+                    .collect::<Vec<Vec<f64>>>();
+                product(form, by, &moved) / product(form, by, by) - 1.0
+            }
+        }
+    }
+
+    /// Its derivative by the jump coefficients of every active joint.
+    fn slope<L: Respond>(&self, form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> Vec<Vec<f64>> {
+        let (mut slope, amount) = match self {
+            Constraint::Dissipate(amount) => (rates(form, laws, now), *amount),
+            Constraint::Move { by, .. } => {
+                let of = |(&k, by): (&usize, &Vec<f64>)| form.joints()[k].gather(by);
+                (form.active().iter().zip(by).map(of).collect(), product(form, by, by))
+            }
+        };
+        slope.iter_mut().flatten().for_each(|value| *value /= amount);
+        slope
+    }
+}
+
 /// Where a search stands: unknowns and load level.
 #[derive(Debug, Clone)]
 pub struct Point {
@@ -51,25 +107,25 @@ pub struct Point {
 }
 
 impl Newton {
-    /// The equilibrium that dissipates `amount` more than the last accepted one, sought from a point.
+    /// The equilibrium as far from the last accepted one as a constraint says, sought from a point.
     pub fn follow<L: Respond>(
         &mut self,
         form: &mut impl Form,
         laws: &L,
         start: Point,
         load: &Affine,
-        amount: f64,
+        constraint: &Constraint,
         settings: Settings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
         let Point { mut x, mut level } = start;
         let mut now = evaluate(form, laws, &x, &load.at(level))?;
         let mut residuals = vec![now.error];
         for iterations in 0..=settings.iterations {
-            let missing = dissipated(form, laws, &now) - amount;
+            let missing = constraint.missing(form, laws, &now);
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || form.rounding(&x, &now.forces, &load.at(level), &self.tangents).min(UNUSABLE);
+            let rounded = || self.rounding(form, laws, &x, &now, &load.at(level));
             let balanced = now.error <= settings.tolerance || stalled && now.error <= rounded();
-            if iterations > 0 && balanced && missing.abs() <= MET * amount {
+            if iterations > 0 && balanced && missing.abs() <= MET {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
                 return Ok((Iterate { x, jumps, tractions, forces, memory, iterations, residuals }, level));
             }
@@ -82,7 +138,7 @@ impl Newton {
                 form.solve(&mut y);
                 form.solve(&mut z);
             }
-            let c = form.weights(&rates(form, laws, &now));
+            let c = form.weights(&constraint.slope(form, laws, &now));
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             let change = (dot(&c, &y) - missing) / dot(&c, &z);
             let correction: Vec<f64> = y.iter().zip(&z).map(|(y, z)| change * z - y).collect();
@@ -90,13 +146,13 @@ impl Newton {
                 return Err(unconverged(form, "the path is singular", &now, iterations));
             }
             let (mut step, mut best) = (1.0, None::<(f64, Vec<f64>, f64, Evaluation<L::Memory>)>);
-            let merit = |error: f64, missing: f64| error.max(settings.tolerance).hypot(missing / amount);
+            let merit = |error: f64, missing: f64| error.max(settings.tolerance).hypot(missing);
             let before = merit(now.error, missing);
             for _ in 0..=HALVINGS {
                 let next: Vec<f64> = x.iter().zip(&correction).map(|(x, d)| x + step * d).collect();
                 let next_level = level + step * change;
                 if let Ok(there) = evaluate(form, laws, &next, &load.at(next_level)) {
-                    let value = merit(there.error, dissipated(form, laws, &there) - amount);
+                    let value = merit(there.error, constraint.missing(form, laws, &there));
                     if value.is_finite() && best.as_ref().is_none_or(|(kept, ..)| value < *kept) {
                         best = Some((value, next, next_level, there));
                     }
@@ -127,16 +183,8 @@ impl Newton {
         amount: f64,
         settings: Settings,
     ) -> Result<Point, Unconverged> {
-        let now = evaluate(form, laws, &from.x, &load.at(from.level))?;
-        self.fill(form, laws, &now, settings);
-        let mut direction = load.change.clone();
-        if form.factor(&self.tangents) {
-            form.solve(&mut direction);
-        }
-        let at = |change: f64| Point {
-            x: from.x.iter().zip(&direction).map(|(x, d)| x + change * d).collect(),
-            level: from.level + change,
-        };
+        let (now, direction) = self.tangent(form, laws, from, load, settings)?;
+        let at = |change: f64| from.moved(&direction, change);
         let (mut low, mut high, mut change) = (0.0, f64::INFINITY, 1e-3);
         for _ in 0..TRIALS {
             let point = at(change);
@@ -150,6 +198,56 @@ impl Newton {
         }
         Err(unconverged(form, "nothing dissipates along the path", &now, 0))
     }
+
+    /// The point that the tangent leads to by a change of the load level.
+    pub fn ahead<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        from: &Point,
+        load: &Affine,
+        change: f64,
+        settings: Settings,
+    ) -> Result<Point, Unconverged> {
+        let (_, direction) = self.tangent(form, laws, from, load, settings)?;
+        Ok(from.moved(&direction, change))
+    }
+
+    /// What the laws say at a point, and J⁻¹ b₁ there.
+    fn tangent<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        from: &Point,
+        load: &Affine,
+        settings: Settings,
+    ) -> Result<(Evaluation<L::Memory>, Vec<f64>), Unconverged> {
+        let now = evaluate(form, laws, &from.x, &load.at(from.level))?;
+        self.fill(form, laws, &now, settings);
+        let mut direction = load.change.clone();
+        if form.factor(&self.tangents) {
+            form.solve(&mut direction);
+        }
+        Ok((now, direction))
+    }
+}
+
+impl Point {
+    fn moved(&self, direction: &[f64], change: f64) -> Point {
+        let x = self.x.iter().zip(direction).map(|(x, d)| x + change * d).collect();
+        Point { x, level: self.level + change }
+    }
+}
+
+/// Σ h w a·b of two sets of values at the law points.
+fn product(form: &impl Form, a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+    let of = |((&k, a), b): ((&usize, &Vec<f64>), &Vec<f64>)| {
+        let joint = &form.joints()[k];
+        let components = joint.coupling.components;
+        let at = |(p, (a, b)): (usize, (&f64, &f64))| joint.coupling.points[p / components].weight * a * b;
+        joint.thickness() * a.iter().zip(b).enumerate().map(at).sum::<f64>()
+    };
+    form.active().iter().zip(a).zip(b).map(of).sum()
 }
 
 /// Energy dissipated since the last accepted increment.

@@ -1,0 +1,50 @@
+//! A step along the path of equilibria as long as the one before it, measured by the change of the jumps. It needs nothing
+//! that dissipates.
+
+use super::course::Course;
+use super::engine::{Failure, Path};
+use super::loading::Start;
+use super::path::{SMALLER, SMALLEST, Standing, Step, TRACTIONS, USUAL, WIDE};
+use super::state::State;
+use crate::error::Result;
+use crate::solver::{Ramp, Unconverged};
+
+impl Course<'_, '_> {
+    /// The next step, ending at the end of the load exactly. The first one goes an increment along the tangent.
+    pub(super) fn arc(&mut self, start: &Start, ramp: &Ramp, at: &mut Standing, part: f64) -> Result<Step> {
+        let first = at.change == 0.0;
+        let mut ratio = at.ratio;
+        let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
+        for _ in 0..SMALLEST {
+            let (ahead, last) = if first { (0.0, ratio * part) } else { (ratio, at.change) };
+            match self.engine.follow(&self.state, at.level, &Path { ramp, amount: None, ahead, last }) {
+                Ok((found, level)) if level < 1.0 => {
+                    let spent = State::dissipation(self.problem, &found);
+                    // how far this goes, in increments of the scene; what is sound may go from nothing to anything
+                    let load = (level - at.level).abs() / part;
+                    let tractions = if spent > 0.0 { self.far(at, &found) / (TRACTIONS * part) } else { 0.0 };
+                    let far = load.max(tractions);
+                    if far <= WIDE {
+                        let iterations = found.iterations;
+                        let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
+                        self.take(start, found, at, level, spent)?;
+                        at.ratio = easier.min(1.0 / far);
+                        return Ok(Ok(iterations));
+                    }
+                }
+                Ok(_) => {
+                    if let Some(iterations) = self.by_load(start, at, 1.0, f64::INFINITY)? {
+                        return Ok(Ok(iterations));
+                    }
+                }
+                Err(Failure::Unconverged(failed)) => {
+                    why = failed;
+                    self.totals.halved += 1;
+                }
+                Err(Failure::Unusable(_)) => {}
+            }
+            ratio *= SMALLER;
+        }
+        Ok(Err(why))
+    }
+}

@@ -1,0 +1,116 @@
+//! Claim: a double cantilever beam opens as a plane model of quadratic elements that was converged over three meshes says,
+//! on matched arms and on unmatched ones; on coarse meshes its local snap-backs are followed.
+//!
+//! ```text
+//!    ↑ d        a₀ = 30 mm
+//!   ┌┴──────────────────────────────┐ h = 1.5 mm      G_I = 0.3 N/mm, χ₀ = 20 MPa
+//!   └┬────────────── · bonded · · · ┘                 E = 70 GPa, ν = 0.3, plane stress
+//!    ↓                     100 mm
+//! ```
+
+use std::path::Path;
+use std::process::Command;
+
+/// Peak load [MN], its opening [m] and the compliance before anything cracks [m/MN], of the plane model.
+const PEAK: f64 = 2.243647156e-3;
+const OPENING: f64 = 2.922298141e-3;
+const COMPLIANCE: f64 = 1.025385167;
+
+struct Run {
+    opening: Vec<f64>,
+    force: Vec<f64>,
+    stored: Vec<f64>,
+    dissipated: Vec<f64>,
+    turns: usize,
+}
+
+/// The scene of the gallery with so many edges along the joint, opened to 4 mm.
+fn run(lower: usize, upper: usize, increments: usize) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
+    command.arg("run").arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/dcb"));
+    for setting in [
+        format!("subdomains.lower.parameters.edges={lower}"),
+        format!("subdomains.upper.parameters.edges={upper}"),
+        format!("/steps/0/increments={increments}"),
+        "/steps/0/displace/upper.load/y=4e-3".into(),
+    ] {
+        command.arg("--set").arg(setting);
+    }
+    let output = command.arg("-o").arg(folder.path().join("out")).output().unwrap();
+    assert!(output.status.success(), "{lower}:{upper}: {}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+    let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let at = names.iter().position(|&column| column == name).unwrap();
+        text.lines().skip(1).map(|row| row.split(',').nth(at).unwrap().parse().unwrap()).collect()
+    };
+    let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    Run {
+        opening: column("opening"),
+        force: column("reaction:upper.load:y"),
+        stored: column("stored"),
+        dissipated: column("dissipated"),
+        turns: summary["solution"]["turns"].as_array().unwrap().len(),
+    }
+}
+
+impl Run {
+    /// Opening and load at the top of the parabola through the highest three increments.
+    fn peak(&self) -> [f64; 2] {
+        let (d, p) = (&self.opening, &self.force);
+        let i = (1..p.len() - 1).max_by(|&i, &j| p[i].total_cmp(&p[j])).unwrap();
+        let (before, after) = ((p[i] - p[i - 1]) / (d[i] - d[i - 1]), (p[i + 1] - p[i]) / (d[i + 1] - d[i]));
+        let curvature = (after - before) / (d[i + 1] - d[i - 1]);
+        let slope = before + curvature * (d[i] - d[i - 1]);
+        [d[i] - 0.5 * slope / curvature, p[i] - 0.25 * slope * slope / curvature]
+    }
+
+    /// ∫ P dd by trapezia.
+    fn work(&self) -> f64 {
+        let mut work = 0.5 * self.opening[0] * self.force[0];
+        for i in 1..self.force.len() {
+            work += 0.5 * (self.force[i] + self.force[i - 1]) * (self.opening[i] - self.opening[i - 1]);
+        }
+        work
+    }
+}
+
+fn close(value: f64, exact: f64, tolerance: f64, what: &str) {
+    assert!((value - exact).abs() <= tolerance * exact, "{what}: {value}, expected {exact}");
+}
+
+#[test]
+fn it_opens_as_the_converged_plane_model_on_unmatched_arms_too() {
+    // the process zone is 4 mm long, which is 8 edges of the coarser side
+    let runs = [(140, 140), (210, 140)].map(|(lower, upper)| run(lower, upper, 40));
+    for (run, what) in runs.iter().zip(["matched", "unmatched"]) {
+        let [opening, load] = run.peak();
+        println!("{what}: peak {load:e} at {opening:e}, {} increments", run.force.len());
+        close(load, PEAK, 0.01, what);
+        close(opening, OPENING, 0.02, what);
+        close(run.opening[0] / run.force[0], COMPLIANCE, 0.005, what);
+        // the work of the load is stored or spent on the crack
+        let last = run.force.len() - 1;
+        let rest = run.work() - run.stored[last];
+        println!(
+            "{what}: work {:e}, stored {:e}, dissipated {:e}",
+            run.work(),
+            run.stored[last],
+            run.dissipated[last]
+        );
+        close(rest, run.dissipated[last], 0.01, what);
+    }
+    let [[d0, p0], [d1, p1]] = [runs[0].peak(), runs[1].peak()];
+    close(d1, d0, 0.005, "opening on unmatched arms");
+    close(p1, p0, 0.005, "peak on unmatched arms");
+}
+
+#[test]
+fn coarse_arms_are_followed_beyond_the_peak_through_local_snap_backs() {
+    // one edge per process zone
+    let run = run(18, 18, 40);
+    assert!(run.turns > 0);
+    assert!(run.opening.windows(2).any(|pair| pair[1] < pair[0]), "nothing snaps back");
+}
