@@ -23,6 +23,8 @@ pub(super) const UNUSABLE: f64 = 1e-6;
 /// A change in the last digit, and how many times the change of the residual that it brings counts as rounding.
 const DIGIT: f64 = 2.0 * f64::EPSILON;
 const SHOWN: f64 = 4.0;
+/// What is shown counts up to this: jumps that run away, where nothing holds the joint, would show anything.
+const SHOWN_MOST: f64 = 1e-10;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
 
@@ -159,7 +161,7 @@ impl Newton {
             let change: Vec<f64> = there.residual.iter().zip(&now.residual).map(|(b, a)| b - a).collect();
             form.error(&change, x, &now.forces, target)
         });
-        own.max(SHOWN * shown).min(UNUSABLE)
+        own.max((SHOWN * shown).min(SHOWN_MOST)).min(UNUSABLE)
     }
 
     /// J⁻¹ R.
