@@ -135,6 +135,8 @@ trade: results/trade/trade.html  ## speed against accuracy of five scenes, measu
 
 results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade
+	cargo bench --locked --bench elastic > results/trade/elastic.txt
+	cargo bench --locked --bench precision > results/trade/precision.txt
 	$(PYTHON) pipeline/trade_page.py results/trade/trade.json
 	$(PYTHON) pipeline/trade_check.py $@
 

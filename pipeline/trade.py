@@ -19,7 +19,7 @@ from pathlib import Path
 from trade_extras import densities, features, penalty
 from trade_front import front, known
 from trade_machine import machine
-from trade_scenes import SCENES, knobs, settings
+from trade_scenes import REFERENCE, SCENES, knobs, settings
 
 ROOT = Path(__file__).resolve().parent.parent
 PRESETS = ("draft", "normal", "fine")
@@ -182,6 +182,9 @@ def run_scene(program, scene, out, form):
         "folder": scene.folder,
         "deciding": scene.errors,
         "floor": scene.floor,
+        "nonlinear": scene.nonlinear,
+        "exact": scene.measures[scene.errors[0]].get("reference"),
+        "reference": {name: REFERENCE.get(name, next(iter(values))) for name, values in knobs(scene).items()},
         "spans": spans,
         "movers": movers,
         "other": max(candidates, key=candidates.get) if candidates else None,

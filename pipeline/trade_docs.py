@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 from trade_front import label
-from trade_page import STAGES, common_table, number, penalty_claim, relative, targets_table
+from trade_page import STAGES, benches, common_table, number, penalty_claim, relative, targets_table
 from trade_scenes import SCENES
 
 MARKS = ("<!-- trade -->", "<!-- /trade -->")
@@ -87,6 +87,7 @@ def document(data):
             f"The shear box, {data['features'][0]['dofs']} dofs, {data['features'][0]['increments']} increments.\n",
             table(["feature", "median [s]", "fastest [s]", "spread", "over springs", "of the fastest", "MB", "iterations"], rows),
         ]
+    parts += [f"\n## {title}\n\n```text\n{text.rstrip()}\n```" for title, text in data["benches"].items()]
     return "\n".join(parts) + "\n"
 
 
@@ -107,6 +108,7 @@ def main():
     parser.add_argument("readme", type=Path)
     options = parser.parse_args()
     data = json.loads((options.results / "trade.json").read_text())
+    data["benches"] = benches(options.results)
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out.parent / "TRADE.md").write_text(document(data))
     (options.out / "presets.json").write_text(json.dumps(presets(data), indent=1) + "\n")

@@ -7,10 +7,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
+from plotly.subplots import make_subplots
 
 from trade_front import FLOOR, error_of, label
 
 PHASES = {"sweep": "#4477aa", "hypercube": "#ccbb44", "factorial": "#66ccee", "factorial of the two that move most": "#aa3377"}
+ANSWERED = ("tolerance", "increments", "density")
 FRONT, FAILED = "#228833", "#cc3311"
 LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
 
@@ -113,6 +115,35 @@ def knob_figure(scene):
             hoverinfo="text",
         )
     figure.update_layout(title="One knob at a time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT)
+    return figure
+
+
+def answer_figure(scene):
+    """The answer against tolerance, increments and density, each alone; a line is the exact one."""
+    name = scene["deciding"][0]
+    sweep = [row for row in scene["points"] if row["phase"] == "sweep" and row["values"].get(name) is not None]
+    figure = make_subplots(rows=1, cols=3, shared_yaxes=True, subplot_titles=[f"{k}" for k in ANSWERED])
+    for column, knob in enumerate(ANSWERED, 1):
+        rows = [row for row in sweep if list(row["labels"]) == [knob]]
+        reference = next((row for row in sweep if not row["labels"]), None)
+        points = [(float(row["labels"][knob]), row) for row in rows]
+        if reference:
+            points.append((float(scene["reference"][knob]), reference))
+        points.sort(key=lambda point: point[0])
+        figure.add_scatter(
+            x=[x for x, _ in points],
+            y=[row["values"][name] for _, row in points],
+            text=[hover(row) for _, row in points],
+            hoverinfo="text",
+            mode="lines+markers",
+            showlegend=False,
+            row=1,
+            col=column,
+        )
+        if scene["exact"] is not None:
+            figure.add_hline(y=scene["exact"], line_dash="dot", line_color="#228833", row=1, col=column)
+        figure.update_xaxes(type="log", row=1, col=column)
+    figure.update_layout(title=f"{name} against tolerance, increments (× those of the scene) and density", **LAYOUT)
     return figure
 
 

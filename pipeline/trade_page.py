@@ -9,7 +9,7 @@ from pathlib import Path
 from plotly.offline import get_plotlyjs
 
 from trade_front import TARGETS, common, error_of, fastest_within, label, next_knob
-from trade_figures import curve_figure, front_figure, knob_figure, penalty_figure, save_fronts, save_penalty
+from trade_figures import answer_figure, curve_figure, front_figure, knob_figure, penalty_figure, save_fronts, save_penalty
 
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; margin: 2em auto; padding: 0 1em }
@@ -170,6 +170,18 @@ def penalty_claim(rows):
     return [said(stiff, "K_N h/E above 1"), said(soft, "K_N h/E up to 1")]
 
 
+BENCHES = {
+    "elastic": "An elastic scene against a way that knows nothing else",
+    "precision": "A factor in single precision, refined in double",
+}
+
+
+def benches(folder):
+    """What the benches beside the campaign have printed, by heading."""
+    files = {title: folder / f"{name}.txt" for name, title in BENCHES.items()}
+    return {title: file.read_text() for title, file in files.items() if file.is_file()}
+
+
 def build(data, out):
     page = Page("midplane: speed against accuracy")
     m = data["machine"]
@@ -194,6 +206,8 @@ def build(data, out):
         page.figure(front_figure(scene))
         page.text(f"Error: largest of {', '.join(scene['deciding'])}. Grey band: the reference is not known better. Crosses at the top failed.", "note")
         page.figure(knob_figure(scene))
+        if scene["nonlinear"]:
+            page.figure(answer_figure(scene))
         for title in sorted({c["title"] for c in scene["curves"]}):
             page.figure(curve_figure(title, [c for c in scene["curves"] if c["title"] == title]))
         rows, classes = point_rows(scene)
@@ -211,6 +225,9 @@ def build(data, out):
         page.heading("What a scene pays for")
         rows = [[f["feature"], cell(f["median"]), cell(f["min"]), cell(100 * f["spread"]), cell(f["ratio"]), cell(f["memory"] / 1e6, 4), cell(f["dofs"], 7), cell(f["iterations"], 5)] for f in data["features"]]
         page.table(["feature", "median [s]", "fastest [s]", "spread [%]", "over springs", "MB", "dofs", "iterations"], rows)
+    for title, text in data["benches"].items():
+        page.heading(title)
+        page.add(f"<pre>{html.escape(text)}</pre>")
     page.write(out / "trade.html")
 
 
@@ -222,6 +239,7 @@ def main():
     out = options.out or options.data.parent
     out.mkdir(parents=True, exist_ok=True)
     data = json.loads(options.data.read_text())
+    data["benches"] = benches(options.data.parent)
     build(data, out)
     save_fronts(data["scenes"], out / "trade_fronts.png")
     save_penalty(data["penalty"], out / "trade_penalty.png")

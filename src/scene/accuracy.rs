@@ -19,11 +19,11 @@ use crate::mesh;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Accuracy {
-    /// A first look: within some 10 %.
+    /// A first look: within 10 % on all scenes measured.
     Draft,
-    /// The fastest within 1 % on all scenes measured.
+    /// The fastest within 1 % on all of them.
     Normal,
-    /// One digit more.
+    /// One digit more: the density of the scene's own files.
     Fine,
 }
 
@@ -61,9 +61,9 @@ impl Accuracy {
             increments,
         };
         match self {
-            Accuracy::Draft => preset(0.5, 1, 1e-4, 1e-2, 0.5),
-            Accuracy::Normal => preset(1.0, 2, 1e-8, 1e-3, 1.0),
-            Accuracy::Fine => preset(2.0, 2, 1e-10, 1e-4, 2.0),
+            Accuracy::Draft => preset(0.25, 2, 1e-4, 1e-2, 0.25),
+            Accuracy::Normal => preset(0.5, 2, 1e-6, 1e-3, 0.5),
+            Accuracy::Fine => preset(1.0, 2, 1e-8, 1e-4, 1.0),
         }
     }
 }
