@@ -76,6 +76,10 @@ check-%: $(MIDPLANE) $(VENV)  ## look at the joints of a scene before it is solv
 	$(MIDPLANE) check geo/$* -o results/$* --plot
 	$(PYTHON) pipeline/draw_check.py results/$*/check
 
+study-%: $(MIDPLANE) $(VENV)  ## the study of a scene, geo/<scene>/study.json, drawn: results/<scene>_study/
+	$(MIDPLANE) study geo/$*/study.json
+	$(PYTHON) pipeline/study.py results/$*_study/study.json
+
 $(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
 	cargo build --release --locked
 

@@ -175,6 +175,12 @@ def run_scene(program, scene, out, form):
     first = front(campaign.points, scene.floor)
     # the same front measured twice, one after the other
     halves = [campaign.repeats(phase, first, repeat) for phase in ("repeats", "repeats again")]
+    times = {}
+    for row in halves[0] + halves[1]:
+        times.setdefault(tuple(row["settings"]), []).extend(row["times"])
+    for row in campaign.points:
+        if tuple(row["settings"]) in times:
+            row["time"] = statistics.median(times[tuple(row["settings"])])
     presets = campaign.presets(repeat)
     print(f"{scene.name:10} {len(campaign.points)} points, front of {len(first)}, {time.monotonic() - start:.0f} s", flush=True)
     return {

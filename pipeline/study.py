@@ -1,0 +1,90 @@
+"""Draw a study: errors, or values where nothing is known, against time and size, as one HTML page and a PNG.
+
+Hover over a point for its settings. What failed stands at the top."""
+
+import argparse
+import html
+import json
+import math
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import plotly.graph_objects as go
+from plotly.offline import get_plotlyjs
+
+AGAINST = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}
+
+
+def ordinate(study, measure):
+    """A name and a function of a point: its error where there is one, else its value."""
+    if any(point["errors"].get(measure) is not None for point in study["points"]):
+        return f"error of {measure}", lambda point: point["errors"].get(measure)
+    return measure, lambda point: abs(point["values"].get(measure) or 0) or None
+
+
+def setting(point):
+    """The axes of a point in words."""
+    words = []
+    for name, value in point["axes"].items():
+        parts = value.items() if isinstance(value, dict) else [(name, value)]
+        words += [f"{key.removeprefix('subdomains.')} = {part}" for key, part in parts if part is not None]
+    return "<br>".join(words) or "the scene as it is"
+
+
+def known(points, of_x, of_y):
+    found = [(of_x(p), of_y(p), p) for p in points if p["status"] == "done"]
+    return [(x, y, p) for x, y, p in found if x and y and math.isfinite(y)]
+
+
+def page(study, out):
+    parts = [f"<h1>{html.escape(study['title'] or study['study'])}</h1>"]
+    for k, (title, of_x) in enumerate(AGAINST.items()):
+        figure = go.Figure()
+        top = 0.0
+        for measure in study["points"][0]["values"] if study["points"] else []:
+            name, of_y = ordinate(study, measure)
+            rows = known(study["points"], of_x, of_y)
+            top = max([top, *(y for _, y, _ in rows)])
+            x, y, points = zip(*rows) if rows else ((), (), ())
+            text = [f"point {p['point']}<br>{setting(p)}" for p in points]
+            figure.add_scatter(x=x, y=y, mode="markers", name=name, text=text, hoverinfo="text+x+y")
+        failed = [p for p in study["points"] if p["status"] != "done" and of_x(p)]
+        if failed:
+            text = [f"point {p['point']}<br>{setting(p)}<br>{p['message']}" for p in failed]
+            figure.add_scatter(x=[of_x(p) for p in failed], y=[3 * top] * len(failed), mode="markers", name="failed", text=text, hoverinfo="text", marker={"symbol": "x", "color": "#c31"})
+        figure.update_layout(template="plotly_white", xaxis={"type": "log", "title": title}, yaxis={"type": "log", "exponentformat": "power"})
+        parts.append(f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>")
+    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{html.escape(study['study'])}</title><script>{get_plotlyjs()}</script>"
+    out.write_text(f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>")
+
+
+def picture(study, out):
+    figure, axes = plt.subplots(1, len(AGAINST), figsize=(11, 4.2), sharey=True)
+    for axis, (title, of_x) in zip(axes, AGAINST.items()):
+        for measure in study["points"][0]["values"] if study["points"] else []:
+            name, of_y = ordinate(study, measure)
+            rows = known(study["points"], of_x, of_y)
+            axis.loglog([x for x, _, _ in rows], [y for _, y, _ in rows], "o", ms=4, label=name)
+        axis.set_xlabel(title)
+        axis.grid(True, alpha=0.3)
+    axes[0].legend(fontsize=8)
+    figure.suptitle(study["title"] or study["study"])
+    figure.tight_layout()
+    figure.savefig(out, dpi=130)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", type=Path, help="study.json as `midplane study` has written it")
+    options = parser.parse_args()
+    study = json.loads(options.study.read_text())
+    page(study, options.study.with_suffix(".html"))
+    picture(study, options.study.with_suffix(".png"))
+    print(f"wrote {options.study.with_suffix('.html')} and {options.study.with_suffix('.png')}")
+
+
+if __name__ == "__main__":
+    main()
