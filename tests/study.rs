@@ -255,3 +255,14 @@ fn bad_input_is_refused_with_place_and_cure() {
         String::from_utf8_lossy(&output.stderr).contains("the study has 6 points; they count from 0 to 5")
     );
 }
+
+#[test]
+fn the_stored_schema_is_that_of_the_program() {
+    let stored = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/study.schema.json");
+    let stored = std::fs::read_to_string(stored).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_midplane")).args(["schema", "study"]).output().unwrap();
+    assert!(
+        stored == String::from_utf8_lossy(&output.stdout),
+        "run: midplane schema study > geo/study.schema.json"
+    );
+}
