@@ -23,6 +23,10 @@ pub struct Stresses {
 
 /// Recovers the stresses from the displacements (x, y of every node) of one body.
 pub fn recover(mesh: &Mesh, u: &[f64], elasticity: &Elasticity, thickness: f64) -> Stresses {
+    if u.iter().all(|&u| u == 0.0) {
+        let at_rest = |n: usize| vec![[0.0; 4]; n];
+        return Stresses { cells: at_rest(mesh.cells.len()), nodes: at_rest(mesh.points.len()), energy: 0.0 };
+    }
     let per_cell: Vec<(CellStress, f64)> = (0..mesh.cells.len())
         .into_par_iter()
         .map(|c| cell_stress(mesh, c, u, elasticity, thickness))
