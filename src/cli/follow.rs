@@ -1,6 +1,7 @@
 //! A study as it goes: a bar with the time left on a terminal, a line a point elsewhere.
 
 use std::io::IsTerminal;
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Duration;
 
@@ -24,9 +25,7 @@ pub(super) fn study(
     };
     match (point, once) {
         (Some(point), Some(file)) => {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(means.threads).build_global();
-            // the pool of this process is its first
-            let _ = pool;
+            super::set_threads(NonZeroUsize::new(means.threads))?;
             study::run_once(plan, means, point, file).map(|_| ())
         }
         (Some(point), None) => {
