@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
-use super::accuracy::{self, Accuracy};
+use super::accuracy;
 use super::{Scene, Source, expression::Expression, set};
 use crate::error::{At, Error, Result, name_cure};
 
@@ -26,7 +26,8 @@ pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> 
         // the preset may come by a setting, and settings come on top of it
         let mut wanted = value.clone();
         set_all(&mut wanted, source)?;
-        if let Ok(accuracy) = serde_json::from_value::<Accuracy>(wanted["accuracy"].take()) {
+        let accuracy = wanted.get("accuracy").cloned().and_then(|name| serde_json::from_value(name).ok());
+        if let Some(accuracy) = accuracy {
             accuracy::apply(value, source, accuracy)?;
         }
         set_all(value, source)
