@@ -19,7 +19,7 @@ from pathlib import Path
 from trade_extras import densities, features, penalty
 from trade_front import front, known
 from trade_machine import machine
-from trade_scenes import REFERENCE, SCENES, knobs, settings
+from trade_scenes import SCENES, knobs, reference, settings
 
 ROOT = Path(__file__).resolve().parent.parent
 PRESETS = ("draft", "normal", "fine")
@@ -133,7 +133,8 @@ class Campaign:
             draw.shuffle(strata)
             labels = list(values)
             columns[name] = [labels[int((k + draw.random()) / count * len(labels))] for k in strata]
-        chosen = [{name: column[k] for name, column in columns.items()} for k in range(count)]
+        usual = reference(self.scene)
+        chosen = [{name: c[k] for name, c in columns.items() if c[k] != usual[name]} for k in range(count)]
         return self.add(self.study("hypercube", [self.labelled(labels) for labels in chosen]))
 
     def factorial(self, phase, names):
@@ -190,7 +191,7 @@ def run_scene(program, scene, out, form):
         "floor": scene.floor,
         "nonlinear": scene.nonlinear,
         "exact": scene.measures[scene.errors[0]].get("reference"),
-        "reference": {name: REFERENCE.get(name, next(iter(values))) for name, values in knobs(scene).items()},
+        "reference": reference(scene),
         "spans": spans,
         "movers": movers,
         "other": max(candidates, key=candidates.get) if candidates else None,
@@ -217,6 +218,13 @@ def curves(scene, campaign):
     return result
 
 
+def same(front, other, spread):
+    """Whether every point of a front is on the other or beaten there by less than the spread."""
+    def beaten(row):
+        return not any(r["error"] <= row["error"] and r["time"] <= (1 + spread) * row["time"] for r in other)
+    return not any(beaten(row) for row in front)
+
+
 def repeatability(scenes):
     """How far the two measurements of every front agree."""
     rows = {}
@@ -225,12 +233,13 @@ def repeatability(scenes):
         for a, b in zip(*scene["repeated"]):
             ratios.append(max(a["time"], b["time"]) / min(a["time"], b["time"]))
             spreads.append(max((max(r["times"]) - min(r["times"])) / r["time"] for r in (a, b)))
-        labels = [[json.dumps(r["labels"], sort_keys=True) for r in scene[key]] for key in ("front", "front_again")]
+        spread = statistics.median(spreads)
+        a, b = scene["front"], scene["front_again"]
         rows[name] = {
             "points": len(ratios),
-            "same_front": labels[0] == labels[1],
+            "same_front": same(a, b, spread) and same(b, a, spread),
             "largest_ratio": max(ratios),
-            "median_spread": statistics.median(spreads),
+            "median_spread": spread,
             "within_spread": sum(ratio - 1 <= spread for ratio, spread in zip(ratios, spreads)),
         }
     return rows

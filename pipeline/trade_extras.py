@@ -114,6 +114,14 @@ def penalty(program, out, form):
     return rows
 
 
+def spent(command):
+    """Processor time of a command [s]."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
 def densities(program, out):
     """The 6 x 6 study of the strip against 36 runs of its points, all meshed afresh, in one go."""
     folder = out / "densities"
@@ -121,7 +129,7 @@ def densities(program, out):
     folder.mkdir(parents=True)
     file = ROOT / "geo/strip/study.json"
     start, before = time.monotonic(), os.getloadavg()
-    subprocess.run([program, "study", file, "-o", folder / "study", "-q"], check=True)
+    processor = [spent([program, "study", file, "-o", folder / "study", "-q"]), 0.0]
     shared = time.monotonic() - start
     points = json.loads((folder / "study" / "study.json").read_text())["points"]
     seconds = {}
@@ -130,13 +138,15 @@ def densities(program, out):
         for point in points:
             sets = [f"--set={s}" for s in point["settings"] if "study:" not in s]
             where = folder / f"run{point['point']}"
-            subprocess.run([program, "run", "-q", ROOT / "geo/strip", "-o", where, *sets], check=True, stderr=subprocess.DEVNULL)
+            used = spent([program, "run", "-q", ROOT / "geo/strip", "-o", where, *sets])
+            processor[1] += used if kind == "meshed afresh" else 0.0
         seconds[kind] = time.monotonic() - start
     return {
         "points": len(points),
         "study": shared,
         "runs": seconds["meshed afresh"],
         "runs_with_meshes": seconds["meshes there"],
+        "processor": processor,
         "ratio": shared / seconds["meshed afresh"],
         "load": [before, os.getloadavg()],
     }
@@ -144,14 +154,6 @@ def densities(program, out):
 
 SPRINGS = {"type": "elastic", "normal_stiffness": 1.0e7, "tangential_stiffness": 1.0e7}
 EDGES = {"lower": 84, "upper": 56}
-
-
-def spent(command):
-    """Processor time of a command [s]."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def box(program, here):

@@ -55,7 +55,7 @@ def front_figure(scene):
         mode="lines+markers+text",
         name="front, repeated",
         text=[label(row) for row in rows],
-        textposition="bottom left",
+        textposition="middle right",
         textfont={"size": 10, "color": FRONT},
         hovertext=[hover(row) for row in rows],
         hoverinfo="text",
