@@ -122,9 +122,8 @@ impl Show {
             .collect();
         if let Some(totals) = self.totals.as_ref().filter(|totals| totals.iterations > 0) {
             let Totals { increments, iterations, halved, energy_balance, .. } = totals;
-            if !totals.leaps.is_empty() {
-                let cure = "\"control\": \"auto\" follows the path between";
-                self.warning(&format!("{} increments leapt to another branch; {cure}", totals.leaps.len()));
+            if let Some(warning) = totals.warning() {
+                self.warning(&warning);
             }
             self.line(&format!(
                 "solved   {increments} increments, {iterations} iterations, {halved} cuts; energies balance to {energy_balance:.1e}"

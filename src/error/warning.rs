@@ -31,11 +31,13 @@ pub enum Code {
     Locking,
     /// A body that next to nothing holds.
     HardlyHeld,
+    /// An increment of the load level that left the path of equilibria.
+    Leapt,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 12] = [
+    pub const ALL: [Code; 13] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -48,6 +50,7 @@ impl Code {
         Code::UnusedCells,
         Code::Locking,
         Code::HardlyHeld,
+        Code::Leapt,
     ];
 }
 

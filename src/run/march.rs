@@ -9,7 +9,7 @@ use super::newton::NewtonEngine;
 use super::state::State;
 use super::strategy::{self, Estimate, asked};
 use super::{Clock, memory};
-use crate::error::Result;
+use crate::error::{Code, Result, Warning};
 use crate::problem::{Problem, Stage};
 use crate::scene::{Solution, Strategy, Tangent};
 use crate::solver::{Continuum, Plan, Settings, Shelf, System, TooLarge};
@@ -41,6 +41,18 @@ pub struct Totals {
     pub leaps: Vec<(usize, String, f64)>,
     /// Largest |work − stored − dissipated|, relative.
     pub energy_balance: f64,
+}
+
+impl Totals {
+    /// What the user should know of how the increments went.
+    pub fn warning(&self) -> Option<Warning> {
+        let (_, step, level) = self.leaps.first()?;
+        let count = self.leaps.len();
+        let what = format!(
+            "step \"{step}\": {count} increments leapt to another branch, the first at load factor {level:.6}"
+        );
+        Some(Warning::new(Code::Leapt, what, "\"control\": \"auto\" follows the path between"))
+    }
 }
 
 /// Where in the history a state stands.

@@ -183,6 +183,6 @@ pub(super) fn summary<'a>(
         equilibrium,
         time,
         peak_memory_bytes: memory::peak(),
-        warnings: problem.warnings.iter().map(ToString::to_string).collect(),
+        warnings: problem.warnings.iter().chain(&totals.warning()).map(ToString::to_string).collect(),
     }
 }
