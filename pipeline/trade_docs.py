@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 from trade_front import label
-from trade_page import STAGES, benches, common_table, number, penalty_claim, relative, targets_table
+from trade_page import STAGES, benches, common_table, coupling_claim, number, penalty_claim, relative, targets_table
 from trade_scenes import SCENES
 
 MARKS = ("<!-- trade -->", "<!-- /trade -->")
@@ -71,7 +71,7 @@ def document(data):
         ),
         "\n## Projected against pointwise\n",
         "![Error of the tractions against stiffness](trade/trade_penalty.png)\n",
-        "\n".join(f"- {line}" for line in penalty_claim(data["penalty"])),
+        "\n".join(f"- {line}" for line in penalty_claim(data["penalty"]) + coupling_claim(scenes)),
     ]
     if "densities" in data:
         d = data["densities"]

@@ -188,6 +188,19 @@ def benches(folder):
     return {title: file.read_text() for title, file in files.items() if file.is_file()}
 
 
+def coupling_claim(scenes):
+    """What the couplings cost and give on every scene at its reference setting."""
+    lines = []
+    for name, scene in scenes.items():
+        sweep = [row for row in scene["points"] if row["phase"] == "sweep"]
+        usual = next((row for row in sweep if not row["labels"]), None)
+        other = next((row for row in sweep if row["labels"] == {"coupling": "pointwise"}), None)
+        if usual and other and usual["error"] and other["error"]:
+            ratios = f"time {usual['time'] / other['time']:.2f}, error {usual['error'] / other['error']:.2g}"
+            lines.append(f"{name}, K_N h/E = {usual['stiffness_number']:.2g}: projected over pointwise: {ratios}.")
+    return lines
+
+
 def build(data, out):
     page = Page("midplane: speed against accuracy")
     m = data["machine"]
@@ -221,7 +234,7 @@ def build(data, out):
         page.table(["phase", "setting", "status", "error", *names, "time [s]", "wall clock [s]", "dofs", "iterations", "nnz(L)", *STAGES, "MB"], rows, classes, scroll=True)
     page.heading("Penalty: projected against pointwise")
     page.figure(penalty_figure(data["penalty"]))
-    for line in penalty_claim(data["penalty"]):
+    for line in penalty_claim(data["penalty"]) + coupling_claim(scenes):
         page.text(line)
     if "densities" in data:
         d = data["densities"]
