@@ -122,7 +122,7 @@ def targets_table(scenes):
         for name, scene in scenes.items():
             best = fastest_within(scene["points"], target)
             if best is None:
-                rows.append([f"{100 * target:g} %", name, "none measured", "", "", "", ""])
+                rows.append([f"{100 * target:g} %", name, "none measured", cell(None), cell(None), cell(None), ""])
                 continue
             knob, cost = next_knob(scene["points"], target)
             times = "" if cost is None else f"× {cost:.1f}"
