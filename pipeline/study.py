@@ -54,11 +54,27 @@ def page(study, out):
         failed = [p for p in study["points"] if p["status"] != "done" and of_x(p)]
         if failed:
             text = [f"point {p['point']}<br>{setting(p)}<br>{p['message']}" for p in failed]
-            figure.add_scatter(x=[of_x(p) for p in failed], y=[3 * top] * len(failed), mode="markers", name="failed", text=text, hoverinfo="text", marker={"symbol": "x", "color": "#c31"})
-        figure.update_layout(template="plotly_white", xaxis={"type": "log", "title": title}, yaxis={"type": "log", "exponentformat": "power"})
-        parts.append(f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>")
+            figure.add_scatter(
+                x=[of_x(p) for p in failed],
+                y=[3 * top] * len(failed),
+                mode="markers",
+                name="failed",
+                text=text,
+                hoverinfo="text",
+                marker={"symbol": "x", "color": "#c31"},
+            )
+        figure.update_layout(
+            template="plotly_white",
+            xaxis={"type": "log", "title": title},
+            yaxis={"type": "log", "exponentformat": "power"},
+        )
+        parts.append(
+            f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>"
+        )
     head = f"<!DOCTYPE html><meta charset='utf-8'><title>{html.escape(study['study'])}</title><script>{get_plotlyjs()}</script>"
-    out.write_text(f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>")
+    out.write_text(
+        f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>"
+    )
 
 
 def picture(study, out):

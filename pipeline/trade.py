@@ -7,7 +7,6 @@ others on the machine make it wait. What fails counts as infinitely wrong. `midp
 
 import argparse
 import json
-import math
 import os
 import random
 import shutil
@@ -91,7 +90,10 @@ class Campaign:
             "peak_memory": point["peak_memory"],
             "strategy": point["strategy"],
             "settings": [s for s in point["settings"] if "study:" not in s],
-        } | {name: point["counts"].get(name) for name in ("dofs", "iterations", "increments", "halved", "factor_entries", "stiffness_number")}
+        } | {
+            name: point["counts"].get(name)
+            for name in ("dofs", "iterations", "increments", "halved", "factor_entries", "stiffness_number")
+        }
 
     def add(self, rows):
         self.points += rows
@@ -120,7 +122,11 @@ class Campaign:
         rows = self.add(self.study("sweep", [self.labelled(labels) for labels in chosen]))
         spans = {}
         for name in table:
-            errors = [max(r["error"], 1e-16) for r in rows if (name in r["labels"] or not r["labels"]) and r["error"] is not None]
+            errors = [
+                max(r["error"], 1e-16)
+                for r in rows
+                if (name in r["labels"] or not r["labels"]) and r["error"] is not None
+            ]
             spans[name] = max(errors) / min(errors) if len(errors) > 1 else 1.0
         return spans
 
@@ -183,7 +189,10 @@ def run_scene(program, scene, out, form):
         if tuple(row["settings"]) in times:
             row["time"] = statistics.median(times[tuple(row["settings"])])
     presets = campaign.presets(repeat)
-    print(f"{scene.name:10} {len(campaign.points)} points, front of {len(first)}, {time.monotonic() - start:.0f} s", flush=True)
+    print(
+        f"{scene.name:10} {len(campaign.points)} points, front of {len(first)}, {time.monotonic() - start:.0f} s",
+        flush=True,
+    )
     return {
         "case": scene.case,
         "folder": scene.folder,
@@ -220,8 +229,10 @@ def curves(scene, campaign):
 
 def same(front, other, spread):
     """Whether every point of a front is on the other or beaten there by less than the spread."""
+
     def beaten(row):
         return not any(r["error"] <= row["error"] and r["time"] <= (1 + spread) * row["time"] for r in other)
+
     return not any(beaten(row) for row in front)
 
 

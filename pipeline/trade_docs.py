@@ -7,7 +7,8 @@ import shutil
 from pathlib import Path
 
 from trade_front import label
-from trade_page import STAGES, benches, common_table, coupling_claim, number, penalty_claim, relative, targets_table
+from trade_html import number
+from trade_page import STAGES, benches, common_table, coupling_claim, penalty_claim, relative, targets_table
 from trade_scenes import SCENES
 
 MARKS = ("<!-- trade -->", "<!-- /trade -->")
@@ -29,7 +30,16 @@ def presets_table(scenes):
     for name, scene in scenes.items():
         for row in scene["presets"]:
             error = "failed" if row["error"] is None else f"{100 * row['error']:.2g} %"
-            rows.append([name, row["labels"]["accuracy"], error, number(row["dofs"], 7), seconds(row["time"]), number(relative(row["time"], scene), 2)])
+            rows.append(
+                [
+                    name,
+                    row["labels"]["accuracy"],
+                    error,
+                    number(row["dofs"], 7),
+                    seconds(row["time"]),
+                    number(relative(row["time"], scene), 2),
+                ]
+            )
     return table(["scene", "preset", "error", "dofs", "time [s]", "time / draft"], rows)
 
 
@@ -38,8 +48,28 @@ def fronts_table(name, scene):
     for row in scene["front"]:
         stages = ", ".join(f"{s} {1e3 * row['stages'][s]:.0f}" for s in STAGES if row["stages"].get(s, 0) >= 0.0005)
         spread = (max(row["times"]) - min(row["times"])) / row["time"]
-        rows.append([label(row), f"{row['error']:.2g}", number(row["dofs"], 7), seconds(min(row["times"])), seconds(row["time"]), f"{100 * spread:.0f} %", seconds(row["wall"]), stages])
-    head = ["setting", "error", "dofs", "fastest [s]", "median [s]", "spread", "wall clock [s]", "stages, wall clock [ms]"]
+        rows.append(
+            [
+                label(row),
+                f"{row['error']:.2g}",
+                number(row["dofs"], 7),
+                seconds(min(row["times"])),
+                seconds(row["time"]),
+                f"{100 * spread:.0f} %",
+                seconds(row["wall"]),
+                stages,
+            ]
+        )
+    head = [
+        "setting",
+        "error",
+        "dofs",
+        "fastest [s]",
+        "median [s]",
+        "spread",
+        "wall clock [s]",
+        "stages, wall clock [ms]",
+    ]
     return f"### {name}: {scene['case']}\n\nError: largest of {', '.join(scene['deciding'])}.\n\n{table(head, rows)}\n"
 
 
@@ -58,7 +88,10 @@ def document(data):
         table(["error", "setting", "dofs", "time / draft", "next knob"], common_table(scenes)),
         "\nA density of 1 is that of the scenes' own files.\n",
         "## The fastest setting of each scene\n",
-        table(["error", "scene", "setting", "dofs", "time [s]", "time / draft", "for one digit more"], targets_table(scenes)),
+        table(
+            ["error", "scene", "setting", "dofs", "time [s]", "time / draft", "for one digit more"],
+            targets_table(scenes),
+        ),
         "\n## Presets\n",
         presets_table(scenes),
         "\n## Fronts\n",
@@ -66,8 +99,25 @@ def document(data):
         "## Repeatability\n",
         "Every front is measured twice, one measurement after the other; spread is (slowest − fastest) / median.\n",
         table(
-            ["scene", "points", "same front to within the spread", "largest ratio of the medians", "median spread", "medians within the spread"],
-            [[n, r["points"], "yes" if r["same_front"] else "no", f"{r['largest_ratio']:.2f}", f"{100 * r['median_spread']:.0f} %", f"{r['within_spread']} of {r['points']}"] for n, r in data["repeatability"].items()],
+            [
+                "scene",
+                "points",
+                "same front to within the spread",
+                "largest ratio of the medians",
+                "median spread",
+                "medians within the spread",
+            ],
+            [
+                [
+                    n,
+                    r["points"],
+                    "yes" if r["same_front"] else "no",
+                    f"{r['largest_ratio']:.2f}",
+                    f"{100 * r['median_spread']:.0f} %",
+                    f"{r['within_spread']} of {r['points']}",
+                ]
+                for n, r in data["repeatability"].items()
+            ],
         ),
         "\n## Projected against pointwise\n",
         "![Error of the tractions against stiffness](trade/trade_penalty.png)\n",
@@ -82,11 +132,35 @@ def document(data):
             f"{d['processor'][0]:.1f} and {d['processor'][1]:.1f} s, ratio {d['processor'][0] / d['processor'][1]:.2f}.",
         ]
     if "features" in data:
-        rows = [[f["feature"], seconds(f["median"]), seconds(f["min"]), f"{100 * f['spread']:.0f} %", f"{f['ratio']:.2f}", f"{f['ratio_of_minima']:.2f}", number(f["memory"] / 1e6, 3), f["iterations"]] for f in data["features"]]
+        rows = [
+            [
+                f["feature"],
+                seconds(f["median"]),
+                seconds(f["min"]),
+                f"{100 * f['spread']:.0f} %",
+                f"{f['ratio']:.2f}",
+                f"{f['ratio_of_minima']:.2f}",
+                number(f["memory"] / 1e6, 3),
+                f["iterations"],
+            ]
+            for f in data["features"]
+        ]
         parts += [
             "\n## What a scene pays for\n",
             f"The shear box, {data['features'][0]['dofs']} dofs, {data['features'][0]['increments']} increments.\n",
-            table(["feature", "median [s]", "fastest [s]", "spread", "over springs", "of the fastest", "MB", "iterations"], rows),
+            table(
+                [
+                    "feature",
+                    "median [s]",
+                    "fastest [s]",
+                    "spread",
+                    "over springs",
+                    "of the fastest",
+                    "MB",
+                    "iterations",
+                ],
+                rows,
+            ),
         ]
     parts += [f"\n## {title}\n\n```text\n{text.rstrip()}\n```" for title, text in data["benches"].items()]
     return "\n".join(parts) + "\n"
@@ -98,7 +172,13 @@ def presets(data):
     for name, scene in data["scenes"].items():
         of = SCENES[name]
         errors = {row["labels"]["accuracy"]: row["error"] for row in scene["presets"]}
-        result[name] = {"scene": f"{of.folder}/scene.json", "set": of.settings, "measures": of.measures, "deciding": of.errors, "errors": errors}
+        result[name] = {
+            "scene": f"{of.folder}/scene.json",
+            "set": of.settings,
+            "measures": of.measures,
+            "deciding": of.errors,
+            "errors": errors,
+        }
     return result
 
 

@@ -39,7 +39,12 @@ def strip(kn, kt):
     def through(layer):
         l, m = lame[layer]
         c = l + 2 * m
-        rows = [[0, 0, 1, 0], [0, 0, 0, 1], [c * k * k / m, 0, 0, k * (l + m) / m], [0, m * k * k / c, -k * (l + m) / c, 0]]
+        rows = [
+            [0, 0, 1, 0],
+            [0, 0, 0, 1],
+            [c * k * k / m, 0, 0, k * (l + m) / m],
+            [0, m * k * k / c, -k * (l + m) / c, 0],
+        ]
         return exponential(np.array(rows) * heights[layer])
 
     def traction(layer, z):
@@ -97,7 +102,9 @@ def penalty(program, out, form):
             "process": "own",
             "repeat": 3,
         }
-        for (element, name, coupling), point in zip(labels, study(program, folder, content, "--threads", "1")["points"]):
+        for (element, name, coupling), point in zip(
+            labels, study(program, folder, content, "--threads", "1")["points"]
+        ):
             times = point["processor"]
             rows.append(
                 {
@@ -159,7 +166,11 @@ EDGES = {"lower": 84, "upper": 56}
 def box(program, here):
     """The shear box on meshes that are there."""
     counts = {"edges": 1, "rows": 2}
-    sets = [f"--set=subdomains.{b}.parameters.{n}={edges // part}" for b, edges in EDGES.items() for n, part in counts.items()]
+    sets = [
+        f"--set=subdomains.{b}.parameters.{n}={edges // part}"
+        for b, edges in EDGES.items()
+        for n, part in counts.items()
+    ]
     subprocess.run([program, "mesh", ROOT / "geo/shear_box", "-q", "-o", here, *sets], check=True)
     for body in EDGES:
         newest = max((here / "mesh").glob(f"{body}-*.msh"), key=lambda path: path.stat().st_mtime)

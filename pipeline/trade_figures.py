@@ -11,7 +11,12 @@ from plotly.subplots import make_subplots
 
 from trade_front import FLOOR, error_of, label
 
-PHASES = {"sweep": "#4477aa", "hypercube": "#ccbb44", "factorial": "#66ccee", "factorial of the two that move most": "#aa3377"}
+PHASES = {
+    "sweep": "#4477aa",
+    "hypercube": "#ccbb44",
+    "factorial": "#66ccee",
+    "factorial of the two that move most": "#aa3377",
+}
 ANSWERED = ("tolerance", "increments", "density")
 FRONT, FAILED = "#228833", "#cc3311"
 LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
@@ -91,7 +96,9 @@ def front_figure(scene):
         )
     if scene["floor"]:
         figure.add_hrect(y0=1e-13, y1=FLOOR * scene["floor"], fillcolor="#ddd", opacity=0.5, line_width=0)
-    figure.update_layout(title="Error against time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT)
+    figure.update_layout(
+        title="Error against time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT
+    )
     lowest = min([error_of(row, scene["floor"]) for row in scene["points"]] + [1.0])
     figure.update_yaxes(range=[math.log10(max(lowest, 1e-12)) - 0.5, math.log10(top_of(scene)) + 0.3])
     return figure
@@ -114,7 +121,9 @@ def knob_figure(scene):
             hovertext=[hover(row) for row in rows],
             hoverinfo="text",
         )
-    figure.update_layout(title="One knob at a time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT)
+    figure.update_layout(
+        title="One knob at a time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT
+    )
     return figure
 
 
@@ -175,7 +184,12 @@ def penalty_figure(rows):
             name=f"{element} {edges} {coupling}",
             line={"dash": "solid" if coupling == "projected" else "dot"},
         )
-    figure.update_layout(title="L2 error of the tractions of the strip", xaxis=log_axis("K_N h/E"), yaxis=log_axis("relative error"), **LAYOUT)
+    figure.update_layout(
+        title="L2 error of the tractions of the strip",
+        xaxis=log_axis("K_N h/E"),
+        yaxis=log_axis("relative error"),
+        **LAYOUT,
+    )
     return figure
 
 
@@ -185,15 +199,45 @@ def save_fronts(scenes, path):
     for axis, (name, scene) in zip(axes[0], scenes.items()):
         known = [row for row in scene["points"] if row["error"] is not None]
         failed = [row for row in scene["points"] if row["error"] is None]
-        axis.loglog([r["time"] for r in known], [max(r["error"], 1e-12) for r in known], ".", color="#99b", ms=4, label="all points")
+        axis.loglog(
+            [r["time"] for r in known],
+            [max(r["error"], 1e-12) for r in known],
+            ".",
+            color="#99b",
+            ms=4,
+            label="all points",
+        )
         front = scene["front"]
-        axis.loglog([r["time"] for r in front], [error_of(r, scene["floor"]) for r in front], "-D", color=FRONT, ms=4, lw=1.2, label="front")
+        axis.loglog(
+            [r["time"] for r in front],
+            [error_of(r, scene["floor"]) for r in front],
+            "-D",
+            color=FRONT,
+            ms=4,
+            lw=1.2,
+            label="front",
+        )
         presets = [r for r in scene["presets"] if r["error"] is not None]
-        axis.loglog([r["time"] for r in presets], [max(r["error"], 1e-12) for r in presets], "*", color="#ee6677", ms=9, label="presets")
+        axis.loglog(
+            [r["time"] for r in presets],
+            [max(r["error"], 1e-12) for r in presets],
+            "*",
+            color="#ee6677",
+            ms=9,
+            label="presets",
+        )
         for row in presets:
-            axis.annotate(row["labels"]["accuracy"], (row["time"], max(row["error"], 1e-12)), fontsize=7, xytext=(4, 3), textcoords="offset points")
+            axis.annotate(
+                row["labels"]["accuracy"],
+                (row["time"], max(row["error"], 1e-12)),
+                fontsize=7,
+                xytext=(4, 3),
+                textcoords="offset points",
+            )
         if failed:
-            axis.loglog([r["time"] for r in failed], [top_of(scene)] * len(failed), "x", color=FAILED, ms=5, label="failed")
+            axis.loglog(
+                [r["time"] for r in failed], [top_of(scene)] * len(failed), "x", color=FAILED, ms=5, label="failed"
+            )
         axis.set_title(f"{name}: {scene['case'].split(':')[0]}", fontsize=9)
         axis.set_xlabel("time [s]", fontsize=8)
         axis.tick_params(labelsize=7)
@@ -212,7 +256,14 @@ def save_penalty(rows, path):
     for (element, edges, coupling), group in groups(rows).items():
         colour = colours.setdefault((element, edges), f"C{len(colours)}")
         style = "-o" if coupling == "projected" else ":s"
-        axis.loglog([r["stiffness_number"] for r in group], [r["error"] for r in group], style, color=colour, ms=3, label=f"{element} {edges} {coupling}")
+        axis.loglog(
+            [r["stiffness_number"] for r in group],
+            [r["error"] for r in group],
+            style,
+            color=colour,
+            ms=3,
+            label=f"{element} {edges} {coupling}",
+        )
     axis.set_xlabel("K_N h/E")
     axis.set_ylabel("L2 error of the tractions")
     axis.grid(True, alpha=0.3)

@@ -3,93 +3,19 @@
 import argparse
 import html
 import json
-import math
 from pathlib import Path
 
-from plotly.offline import get_plotlyjs
-
-from trade_front import TARGETS, common, error_of, fastest_within, label, next_knob
-from trade_figures import answer_figure, curve_figure, front_figure, knob_figure, penalty_figure, save_fronts, save_penalty
-
-STYLE = """
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; margin: 2em auto; padding: 0 1em }
-h1 { font-size: 1.6em } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc }
-table { border-collapse: collapse; margin: 1em 0; font-size: 13px; font-variant-numeric: tabular-nums }
-th, td { padding: 3px 9px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-th { background: #f2f4f7; cursor: pointer; white-space: nowrap } th:first-child, td:first-child { text-align: left }
-th::after { content: " \\2195"; color: #aaa } tr.front td { background: #eaf4ea } tr.failed td { color: #a33 }
-.figure { width: 100%; height: 560px } .scroll { max-height: 420px; overflow: auto } .note { color: #555 }
-@media print { .scroll { max-height: none; overflow: visible } h2 { break-before: page } th::after { content: "" } }
-"""
-
-SCRIPT = """
-document.querySelectorAll('th').forEach(function (th) {
-  th.addEventListener('click', function () {
-    var table = th.closest('table'), k = Array.prototype.indexOf.call(th.parentNode.children, th);
-    var up = th.dataset.up !== '1';
-    th.dataset.up = up ? '1' : '0';
-    var value = function (row) {
-      var cell = row.children[k], v = cell.dataset.value;
-      return v === undefined ? cell.textContent : v === '' ? Infinity : parseFloat(v);
-    };
-    var rows = Array.prototype.slice.call(table.tBodies[0].rows);
-    rows.sort(function (a, b) {
-      var x = value(a), y = value(b);
-      return (x < y ? -1 : x > y ? 1 : 0) * (up ? 1 : -1);
-    });
-    rows.forEach(function (row) { table.tBodies[0].appendChild(row); });
-  });
-});
-document.body.dataset.ready = 'yes';
-"""
-
-
-def number(value, digits=3):
-    return "" if value is None else f"{value:.{digits}g}"
-
-
-class Page:
-    """HTML in the making."""
-
-    def __init__(self, title):
-        self.title, self.parts, self.figures = title, [], 0
-
-    def add(self, text):
-        self.parts.append(text)
-
-    def heading(self, text, level=2):
-        self.add(f"<h{level}>{html.escape(text)}</h{level}>")
-
-    def text(self, text, kind=""):
-        self.add(f'<p class="{kind}">{html.escape(text)}</p>')
-
-    def figure(self, figure):
-        self.figures += 1
-        name = f"figure{self.figures}"
-        self.add(f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>')
-
-    def table(self, head, rows, classes=(), scroll=False):
-        """Cells are texts, or (text, number to sort by)."""
-        lines = ["<div class='scroll'>" if scroll else "<div>", "<table><thead><tr>"]
-        lines += [f"<th>{html.escape(cell)}</th>" for cell in head] + ["</tr></thead><tbody>"]
-        for k, row in enumerate(rows):
-            lines.append(f"<tr class='{classes[k] if classes else ''}'>")
-            for cell in row:
-                text, value = cell if isinstance(cell, tuple) else (cell, None)
-                known = value is not None and math.isfinite(value)
-                data = f' data-value="{value!r}"' if known else ' data-value=""' if isinstance(cell, tuple) else ""
-                lines.append(f"<td{data}>{html.escape(str(text))}</td>")
-            lines.append("</tr>")
-        self.add("".join(lines + ["</tbody></table></div>"]))
-
-    def write(self, path):
-        head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{html.escape(self.title)}</title>"
-        head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"
-        path.write_text(head + "\n".join(self.parts) + f"<script>{SCRIPT}</script></body></html>")
-
-
-def cell(value, digits=3):
-    return (number(value, digits), math.inf if value is None else float(value))
+from trade_front import TARGETS, common, fastest_within, label, next_knob
+from trade_figures import (
+    answer_figure,
+    curve_figure,
+    front_figure,
+    knob_figure,
+    penalty_figure,
+    save_fronts,
+    save_penalty,
+)
+from trade_html import Page, cell
 
 
 def point_rows(scene):
@@ -98,7 +24,13 @@ def point_rows(scene):
     for row in scene["points"]:
         cells = [row["phase"], label(row), row["status"], cell(row["error"])]
         cells += [cell(row["errors"].get(name)) for name in row["errors"]]
-        cells += [cell(row["time"]), cell(row["wall"]), cell(row["dofs"], 7), cell(row["iterations"], 7), cell(row["factor_entries"], 4)]
+        cells += [
+            cell(row["time"]),
+            cell(row["wall"]),
+            cell(row["dofs"], 7),
+            cell(row["iterations"], 7),
+            cell(row["factor_entries"], 4),
+        ]
         cells += [cell(row["stages"].get(s)) for s in STAGES] + [cell((row["peak_memory"] or 0) / 1e6)]
         rows.append(cells)
         failed = row["error"] is None
@@ -126,7 +58,17 @@ def targets_table(scenes):
                 continue
             knob, cost = next_knob(scene["points"], target)
             times = "" if cost is None else f"× {cost:.1f}"
-            rows.append([f"{100 * target:g} %", name, label(best), cell(best["dofs"], 7), cell(best["time"]), cell(relative(best["time"], scene)), f"{knob} {times}".strip()])
+            rows.append(
+                [
+                    f"{100 * target:g} %",
+                    name,
+                    label(best),
+                    cell(best["dofs"], 7),
+                    cell(best["time"]),
+                    cell(relative(best["time"], scene)),
+                    f"{knob} {times}".strip(),
+                ]
+            )
     return rows
 
 
@@ -152,8 +94,18 @@ def common_table(scenes):
             knob = "density; none measured is enough for " + " and ".join(short or ["all at once"])
         else:
             moved = [name for name, a, b in zip(("density", "element"), (density, element), following[0]) if a != b]
-            knob = " and ".join(moved) + f" → {following[0][1]} × {following[0][0]}" if moved else "none: this one has it"
-        rows.append((f"{100 * target:g} %", f"{element}, density × {density}", f"{min(dofs):.0f} to {max(dofs):.0f}", f"{min(times):.1f} to {max(times):.1f}", knob))
+            knob = (
+                " and ".join(moved) + f" → {following[0][1]} × {following[0][0]}" if moved else "none: this one has it"
+            )
+        rows.append(
+            (
+                f"{100 * target:g} %",
+                f"{element}, density × {density}",
+                f"{min(dofs):.0f} to {max(dofs):.0f}",
+                f"{min(times):.1f} to {max(times):.1f}",
+                knob,
+            )
+        )
     return rows
 
 
@@ -162,10 +114,18 @@ def penalty_claim(rows):
     pairs = {}
     for row in rows:
         pairs.setdefault((row["stiffness"], row["element"], row["edges"]), {})[row["coupling"]] = row
-    stiff = [p for p in pairs.values() if len(p) == 2 and p["projected"]["stiffness_number"] and p["projected"]["stiffness_number"] > 1]
+    stiff = [
+        p
+        for p in pairs.values()
+        if len(p) == 2 and p["projected"]["stiffness_number"] and p["projected"]["stiffness_number"] > 1
+    ]
     soft = [p for p in pairs.values() if len(p) == 2 and p not in stiff]
+
     def ratios(of, name):
-        return [p["projected"][name] / p["pointwise"][name] for p in of if p["projected"][name] and p["pointwise"][name]]
+        return [
+            p["projected"][name] / p["pointwise"][name] for p in of if p["projected"][name] and p["pointwise"][name]
+        ]
+
     def said(of, where):
         if not of:
             return f"{where}: not measured."
@@ -173,6 +133,7 @@ def penalty_claim(rows):
         middle = sorted(times)[len(times) // 2]
         less = sum(r <= 1.0 for r in errors)
         return f"{where}: projected is at least as accurate in {less} of {len(errors)} pairs (error ratio {min(errors):.2g} to {max(errors):.2g}); time ratio {middle:.2f} in the median, {min(times):.2f} to {max(times):.2f}."
+
     return [said(stiff, "K_N h/E above 1"), said(soft, "K_N h/E up to 1")]
 
 
@@ -206,24 +167,68 @@ def build(data, out):
     m = data["machine"]
     scenes = data["scenes"]
     page.heading("Speed against accuracy", 1)
-    page.text(f"{m['date']}, {m['cpu']}, {m['cores']} cores, {m['midplane']} at {m['commit']}, gmsh {m['gmsh']}. Load average {data['load_before'][0]:.1f} before and {data['load_after'][0]:.1f} after; {data['minutes']:.0f} minutes, form \"{data['form']}\".", "note")
-    page.text("Every point is a process of its own on one thread. Time is the processor's for the whole process without the mesher, which does not count what others on the machine make it wait; wall clock is beside it in the tables. Points on the front are repeated. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its setting.", "note")
+    page.text(
+        f'{m["date"]}, {m["cpu"]}, {m["cores"]} cores, {m["midplane"]} at {m["commit"]}, gmsh {m["gmsh"]}. Load average {data["load_before"][0]:.1f} before and {data["load_after"][0]:.1f} after; {data["minutes"]:.0f} minutes, form "{data["form"]}".',
+        "note",
+    )
+    page.text(
+        "Every point is a process of its own on one thread. Time is the processor's for the whole process without the mesher, which does not count what others on the machine make it wait; wall clock is beside it in the tables. Points on the front are repeated. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its setting.",
+        "note",
+    )
     page.heading("What to choose")
-    page.text("One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files.")
+    page.text(
+        "One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files."
+    )
     page.table(["error", "setting", "dofs", "time / draft", "next knob"], common_table(scenes))
     page.text("The fastest setting of each scene:")
-    page.table(["error", "scene", "setting", "dofs", "time [s]", "time / draft", "for one digit more"], targets_table(scenes))
+    page.table(
+        ["error", "scene", "setting", "dofs", "time [s]", "time / draft", "for one digit more"], targets_table(scenes)
+    )
     page.heading("Presets")
-    rows = [[name, row["labels"]["accuracy"], cell(row["error"]), cell(row["dofs"], 7), cell(row["time"]), cell(relative(row["time"], scene))] for name, scene in scenes.items() for row in scene["presets"]]
+    rows = [
+        [
+            name,
+            row["labels"]["accuracy"],
+            cell(row["error"]),
+            cell(row["dofs"], 7),
+            cell(row["time"]),
+            cell(relative(row["time"], scene)),
+        ]
+        for name, scene in scenes.items()
+        for row in scene["presets"]
+    ]
     page.table(["scene", "preset", "error", "dofs", "time [s]", "time / draft"], rows)
     page.heading("Repeatability")
-    rows = [[name, r["points"], "yes" if r["same_front"] else "no", cell(r["largest_ratio"]), cell(100 * r["median_spread"]), f"{r['within_spread']} of {r['points']}"] for name, r in data["repeatability"].items()]
+    rows = [
+        [
+            name,
+            r["points"],
+            "yes" if r["same_front"] else "no",
+            cell(r["largest_ratio"]),
+            cell(100 * r["median_spread"]),
+            f"{r['within_spread']} of {r['points']}",
+        ]
+        for name, r in data["repeatability"].items()
+    ]
     page.text("Every front is measured twice. Spread is (slowest − fastest) / median of the repeats.")
-    page.table(["scene", "points on the front", "same front to within the spread", "largest ratio of the two medians", "median spread [%]", "medians agree to within the spread"], rows)
+    page.table(
+        [
+            "scene",
+            "points on the front",
+            "same front to within the spread",
+            "largest ratio of the two medians",
+            "median spread [%]",
+            "medians agree to within the spread",
+        ],
+        rows,
+    )
     for name, scene in scenes.items():
         page.heading(f"{name}: {scene['case']}")
         page.figure(front_figure(scene))
-        page.text(f"Error: largest of {', '.join(scene['deciding'])}. Grey band: the reference is not known better. Crosses at the top failed.", "note")
+        page.text(
+            f"Error: largest of {', '.join(scene['deciding'])}. Grey band: the reference is not known better. Crosses at the top failed.",
+            "note",
+        )
         page.figure(knob_figure(scene))
         if scene["nonlinear"]:
             page.figure(answer_figure(scene))
@@ -231,7 +236,25 @@ def build(data, out):
             page.figure(curve_figure(title, [c for c in scene["curves"] if c["title"] == title]))
         rows, classes = point_rows(scene)
         names = [f"error {n}" for n in scene["points"][0]["errors"]]
-        page.table(["phase", "setting", "status", "error", *names, "time [s]", "wall clock [s]", "dofs", "iterations", "nnz(L)", *STAGES, "MB"], rows, classes, scroll=True)
+        page.table(
+            [
+                "phase",
+                "setting",
+                "status",
+                "error",
+                *names,
+                "time [s]",
+                "wall clock [s]",
+                "dofs",
+                "iterations",
+                "nnz(L)",
+                *STAGES,
+                "MB",
+            ],
+            rows,
+            classes,
+            scroll=True,
+        )
     page.heading("Penalty: projected against pointwise")
     page.figure(penalty_figure(data["penalty"]))
     for line in penalty_claim(data["penalty"]) + coupling_claim(scenes):
@@ -239,11 +262,27 @@ def build(data, out):
     if "densities" in data:
         d = data["densities"]
         page.heading("A study of two densities against single runs")
-        page.text(f"{d['points']} points of the strip: {d['study']:.1f} s as one study, {d['runs']:.1f} s as single runs, {d['runs_with_meshes']:.1f} s of single runs with their meshes on disk, ratio {d['ratio']:.2f}. Processor time, mesher included: {d['processor'][0]:.1f} and {d['processor'][1]:.1f} s, ratio {d['processor'][0] / d['processor'][1]:.2f}.")
+        page.text(
+            f"{d['points']} points of the strip: {d['study']:.1f} s as one study, {d['runs']:.1f} s as single runs, {d['runs_with_meshes']:.1f} s of single runs with their meshes on disk, ratio {d['ratio']:.2f}. Processor time, mesher included: {d['processor'][0]:.1f} and {d['processor'][1]:.1f} s, ratio {d['processor'][0] / d['processor'][1]:.2f}."
+        )
     if "features" in data:
         page.heading("What a scene pays for")
-        rows = [[f["feature"], cell(f["median"]), cell(f["min"]), cell(100 * f["spread"]), cell(f["ratio"]), cell(f["memory"] / 1e6, 4), cell(f["dofs"], 7), cell(f["iterations"], 5)] for f in data["features"]]
-        page.table(["feature", "median [s]", "fastest [s]", "spread [%]", "over springs", "MB", "dofs", "iterations"], rows)
+        rows = [
+            [
+                f["feature"],
+                cell(f["median"]),
+                cell(f["min"]),
+                cell(100 * f["spread"]),
+                cell(f["ratio"]),
+                cell(f["memory"] / 1e6, 4),
+                cell(f["dofs"], 7),
+                cell(f["iterations"], 5),
+            ]
+            for f in data["features"]
+        ]
+        page.table(
+            ["feature", "median [s]", "fastest [s]", "spread [%]", "over springs", "MB", "dofs", "iterations"], rows
+        )
     for title, text in data["benches"].items():
         page.heading(title)
         page.add(f"<pre>{html.escape(text)}</pre>")

@@ -1,0 +1,88 @@
+"""A self-contained HTML page in the making: headings, tables that sort, figures that move."""
+
+import html
+import math
+
+from plotly.offline import get_plotlyjs
+
+STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; margin: 2em auto; padding: 0 1em }
+h1 { font-size: 1.6em } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc }
+table { border-collapse: collapse; margin: 1em 0; font-size: 13px; font-variant-numeric: tabular-nums }
+th, td { padding: 3px 9px; text-align: right; border-bottom: 1px solid #e4e4e4 }
+th { background: #f2f4f7; cursor: pointer; white-space: nowrap } th:first-child, td:first-child { text-align: left }
+th::after { content: " \\2195"; color: #aaa } tr.front td { background: #eaf4ea } tr.failed td { color: #a33 }
+.figure { width: 100%; height: 560px } .scroll { max-height: 420px; overflow: auto } .note { color: #555 }
+@media print { .scroll { max-height: none; overflow: visible } h2 { break-before: page } th::after { content: "" } }
+"""
+
+SCRIPT = """
+document.querySelectorAll('th').forEach(function (th) {
+  th.addEventListener('click', function () {
+    var table = th.closest('table'), k = Array.prototype.indexOf.call(th.parentNode.children, th);
+    var up = th.dataset.up !== '1';
+    th.dataset.up = up ? '1' : '0';
+    var value = function (row) {
+      var cell = row.children[k], v = cell.dataset.value;
+      return v === undefined ? cell.textContent : v === '' ? Infinity : parseFloat(v);
+    };
+    var rows = Array.prototype.slice.call(table.tBodies[0].rows);
+    rows.sort(function (a, b) {
+      var x = value(a), y = value(b);
+      return (x < y ? -1 : x > y ? 1 : 0) * (up ? 1 : -1);
+    });
+    rows.forEach(function (row) { table.tBodies[0].appendChild(row); });
+  });
+});
+document.body.dataset.ready = 'yes';
+"""
+
+
+def number(value, digits=3):
+    return "" if value is None else f"{value:.{digits}g}"
+
+
+class Page:
+    """HTML in the making."""
+
+    def __init__(self, title):
+        self.title, self.parts, self.figures = title, [], 0
+
+    def add(self, text):
+        self.parts.append(text)
+
+    def heading(self, text, level=2):
+        self.add(f"<h{level}>{html.escape(text)}</h{level}>")
+
+    def text(self, text, kind=""):
+        self.add(f'<p class="{kind}">{html.escape(text)}</p>')
+
+    def figure(self, figure):
+        self.figures += 1
+        name = f"figure{self.figures}"
+        self.add(
+            f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>'
+        )
+
+    def table(self, head, rows, classes=(), scroll=False):
+        """Cells are texts, or (text, number to sort by)."""
+        lines = ["<div class='scroll'>" if scroll else "<div>", "<table><thead><tr>"]
+        lines += [f"<th>{html.escape(cell)}</th>" for cell in head] + ["</tr></thead><tbody>"]
+        for k, row in enumerate(rows):
+            lines.append(f"<tr class='{classes[k] if classes else ''}'>")
+            for cell in row:
+                text, value = cell if isinstance(cell, tuple) else (cell, None)
+                known = value is not None and math.isfinite(value)
+                data = f' data-value="{value!r}"' if known else ' data-value=""' if isinstance(cell, tuple) else ""
+                lines.append(f"<td{data}>{html.escape(str(text))}</td>")
+            lines.append("</tr>")
+        self.add("".join(lines + ["</tbody></table></div>"]))
+
+    def write(self, path):
+        head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{html.escape(self.title)}</title>"
+        head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"
+        path.write_text(head + "\n".join(self.parts) + f"<script>{SCRIPT}</script></body></html>")
+
+
+def cell(value, digits=3):
+    return (number(value, digits), math.inf if value is None else float(value))
