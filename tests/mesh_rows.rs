@@ -128,7 +128,10 @@ fn b30_groups_that_contradict_each_other_are_refused_naming_both() {
     let output = midplane(folder.path(), &twice, SCENE, "check");
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{message}");
-    assert!(message.contains("warning: subdomain upper: nothing uses its group corner, roof"), "{message}");
+    assert!(
+        message.contains("warning: W09 subdomain upper: nothing uses its group corner, roof"),
+        "{message}"
+    );
 }
 
 #[test]

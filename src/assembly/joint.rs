@@ -1,7 +1,11 @@
 //! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
 
 use super::{Pattern, Symmetric, Tangent};
-use crate::coupling::{Coupling, Csr};
+use crate::coupling::{Coupling, Csr, LawPoint};
+
+/// Directions that differ by no more than this are one.
+const STRAIGHT: f64 = 8.0 * f64::EPSILON;
+const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// A coupling whose columns are dofs of the model.
 #[derive(Debug, Clone)]
@@ -12,8 +16,10 @@ pub struct Joint {
     pub coupling: Coupling,
     /// Bodies of side A and side B.
     pub bodies: [usize; 2],
-    /// G on global dofs.
+    /// G on global dofs, in the axes of `turned`.
     jump: Csr,
+    /// The common n and t of a straight joint, in which its jump coefficients are then given; else they are in x, y.
+    turned: Option<[[f64; 2]; 2]>,
     thickness: f64,
 }
 
@@ -31,14 +37,24 @@ impl Joint {
         let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
         let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);
         let nodes: Vec<usize> = nodes_a.chain(nodes_b).collect();
+        let turned = common_axes(&coupling);
+        let axes = turned.unwrap_or(IDENTITY);
         let mut entries = Vec::with_capacity(coupling.jump.values.len());
         for i in 0..coupling.jump.rows() {
             let (columns, values) = coupling.jump.row(i);
-            entries
-                .extend(columns.iter().zip(values).map(|(&j, &value)| (i, c * nodes[j / c] + j % c, value)));
+            for (a, axis) in axes.iter().enumerate().filter(|(_, axis)| axis[i % c] != 0.0) {
+                let dof = |j: usize| c * nodes[j / c] + j % c;
+                let turn = |(&j, &value): (&usize, &f64)| (i - i % c + a, dof(j), axis[i % c] * value);
+                entries.extend(columns.iter().zip(values).map(turn));
+            }
         }
         let jump = Csr::from_triplets(coupling.jump.rows(), dofs, &entries); // columns ascend again
-        Joint { name: name.into(), coupling, bodies, jump, thickness }
+        Joint { name: name.into(), coupling, bodies, jump, turned, thickness }
+    }
+
+    /// R of a law point on the jump coefficients as they are given.
+    pub(super) fn rotation(&self, point: &LawPoint) -> [[f64; 2]; 2] {
+        if self.turned.is_some() { IDENTITY } else { point.rotation }
     }
 
     /// Jump coefficients a = G u of displacements.
@@ -56,7 +72,7 @@ impl Joint {
         let c = self.coupling.components;
         let mut jumps = vec![0.0; c * self.coupling.points.len()];
         for (point, jump) in self.coupling.points.iter().zip(jumps.chunks_exact_mut(c)) {
-            for (row, jump) in point.rotation.iter().zip(jump) {
+            for (row, jump) in self.rotation(point).iter().zip(jump) {
                 for (i, n) in point.interpolation {
                     let a = &coefficients[c * i..c * (i + 1)];
                     *jump += n * row.iter().zip(a).map(|(r, a)| r * a).sum::<f64>();
@@ -72,7 +88,7 @@ impl Joint {
         let mut q = vec![0.0; self.jump.rows()];
         for (point, traction) in self.coupling.points.iter().zip(tractions.chunks_exact(c)) {
             for (i, n) in point.interpolation {
-                for (row, t) in point.rotation.iter().zip(traction) {
+                for (row, t) in self.rotation(point).iter().zip(traction) {
                     for (q, r) in q[c * i..c * (i + 1)].iter_mut().zip(row) {
                         *q += self.thickness * point.weight * n * r * t;
                     }
@@ -158,6 +174,16 @@ impl Joint {
         tangent.fill(self, stiffness);
         product(&tangent.matrix, &self.jump)
     }
+}
+
+/// n and t of the law points if they have them in common: stiff springs along one of them do not then reach into the other.
+fn common_axes(coupling: &Coupling) -> Option<[[f64; 2]; 2]> {
+    let first = coupling.points.first()?.rotation;
+    let same = |point: &LawPoint| {
+        let pairs = point.rotation.as_flattened().iter().zip(first.as_flattened());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= STRAIGHT
+    };
+    coupling.points.iter().all(same).then_some(first)
 }
 
 /// A B, row by row.

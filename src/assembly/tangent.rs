@@ -53,7 +53,7 @@ impl Tangent {
         self.matrix.values.fill(0.0);
         let mut places = self.places.iter();
         for (point, d) in joint.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
-            let r = &point.rotation;
+            let r = joint.rotation(point);
             for (_, ni) in point.interpolation {
                 for (_, nj) in point.interpolation {
                     let w = joint.thickness() * point.weight * ni * nj;
