@@ -64,6 +64,17 @@ impl Model {
         self.components * body.first_node..self.components * (body.first_node + body.mesh.points.len())
     }
 
+    /// Nodes that a joint touches.
+    pub fn joined(&self) -> Vec<bool> {
+        let mut joined = vec![false; self.nodes()];
+        for joint in &self.joints {
+            for i in 0..joint.size() {
+                joint.row(i).0.iter().for_each(|&dof| joined[dof / self.components] = true);
+            }
+        }
+        joined
+    }
+
     /// Coordinates of all nodes, one node after the other [length].
     pub fn coordinates(&self) -> Vec<f64> {
         self.bodies.iter().flat_map(|body| body.mesh.points.as_flattened()).copied().collect()

@@ -14,6 +14,9 @@ use crate::problem::{Problem, Stage};
 use crate::scene::{Solution, Strategy, Tangent};
 use crate::solver::{Continuum, Plan, Settings, Shelf, System, TooLarge};
 
+/// Bodies of linear scenes are shared with other runs if at most so many of their dofs are on joints.
+const SHARED: usize = 12_000;
+
 /// Counts over a whole march.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
@@ -119,7 +122,10 @@ pub fn march_within(
     let mut stiffness: Vec<Vec<f64>> = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
     let mut totals = Totals::default();
     let linear = asked.is_empty();
-    if linear && (strategy != Strategy::Auto || shelf.is_none()) {
+    // a linear scene needs its condensation once, which pays only if others have it too
+    let shared = strategy == Strategy::Auto && shelf.is_some();
+    let border = || model.components * model.joined().into_iter().filter(|&joined| joined).count();
+    if linear && !(shared && border() <= SHARED) {
         let (pattern, joints) = (&model.pattern(), &model.joints);
         let continuum = &model.continuum(pattern);
         let system = System { joints, stiffness: &stiffness, pattern, continuum };

@@ -54,12 +54,7 @@ impl Continuum {
     /// Assembles the bodies of a model and plans their condensation; what is on the shelf is taken from there.
     pub fn new(model: &Model, shelf: Option<Arc<Shelf>>) -> Result<Continuum, TooLarge> {
         let c = model.components;
-        let mut joined = vec![false; model.nodes()];
-        for joint in &model.joints {
-            for i in 0..joint.size() {
-                joint.row(i).0.iter().for_each(|&dof| joined[dof / c] = true);
-            }
-        }
+        let joined = model.joined();
         let make = |b: usize| {
             let (body, dofs) = (&model.bodies[b], model.dofs_of(b));
             let joined = &joined[dofs.start / c..dofs.end / c];
