@@ -102,14 +102,14 @@ impl<'a, 'b> Course<'a, 'b> {
                 };
                 match tried {
                     Ok((found, leap)) => {
-                        let increment = self.totals.increments + 1;
-                        let leap = leap.map(|level| (increment, stage.name.clone(), level));
-                        self.totals.leaps.extend(leap);
-                        self.engine.accept();
                         iterations += found.iterations;
                         if found.iterations <= EASY {
                             width = (2.0 * width).min(part);
                         }
+                        if let Some(level) = leap {
+                            self.leapt(stage, level);
+                        }
+                        self.engine.accept();
                         self.state.accept(problem, found, load);
                         (last, level) = (reached - level, reached);
                     }
@@ -117,9 +117,25 @@ impl<'a, 'b> Course<'a, 'b> {
                         iterations += why.iterations;
                         self.totals.halved += 1;
                         width = 0.5 * (reached - level);
-                        if width * (stage.increments as f64) < 0.5_f64.powi(HALVINGS) {
-                            lost = Some(why);
-                            break;
+                        if width * (stage.increments as f64) >= 0.5_f64.powi(HALVINGS) {
+                            continue;
+                        }
+                        match self.engine.relax(&self.state, &start.at(reached)?, complete) {
+                            Ok(found) => {
+                                let leaps = self.leaps(&found);
+                                iterations += found.iterations;
+        if std::env::var("DBG").is_ok() { eprintln!("LEAP at {reached} {leaps} width {}", reached-level); }
+                                if leaps {
+                                    self.leapt(stage, reached);
+                                }
+                                self.engine.accept();
+                                self.state.accept(problem, found, start.at(reached)?);
+                                (last, level) = (f64::INFINITY, reached);
+                            }
+                            Err(_) => {
+                                lost = Some(why);
+                                break;
+                            }
                         }
                     }
                 }
@@ -136,6 +152,11 @@ impl<'a, 'b> Course<'a, 'b> {
             }
         }
         Ok(())
+    }
+
+    /// Keeps that the next increment leaps at a load level.
+    pub(super) fn leapt(&mut self, stage: &Stage, level: f64) {
+        self.totals.leaps.push((self.totals.increments + 1, stage.name.clone(), level));
     }
 
     /// A place in a step, to be filled in.

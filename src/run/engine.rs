@@ -44,6 +44,10 @@ pub(super) trait Engine {
     /// Displacements are recovered if they are asked for (`complete`) or needed.
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
 
+    /// Stable equilibrium at a load level where none continues the last accepted one: what the joints' drag leaves when they
+    /// have come to rest (`relax`).
+    fn relax(&mut self, state: &State, load: &Load, complete: bool) -> Result<Found, Failure>;
+
     /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure>;
 
@@ -134,6 +138,10 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         }
         let residuals = vec![solution.backward_error];
         Ok(Found { solution: Some(solution), ledger: None, joints: Vec::new(), iterations: 0, residuals })
+    }
+
+    fn relax(&mut self, _: &State, _: &Load, _: bool) -> Result<Found, Failure> {
+        Err(Failure::Unusable(f64::INFINITY)) // nothing softens
     }
 
     fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Found, f64), Failure> {

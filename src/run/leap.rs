@@ -24,6 +24,11 @@ const HALVINGS: usize = 10;
 const LEFT: f64 = 0.5;
 
 impl Course<'_, '_> {
+    /// True if an increment releases energy: the way there was not through equilibria.
+    pub(super) fn leaps(&self, found: &Found) -> bool {
+        self.state.released(self.problem, found) > RELEASED * State::dissipation(self.problem, found)
+    }
+
     /// The level within an increment at which it leaps, if it does, and what is found again at its end.
     pub(super) fn leap(
         &mut self,

@@ -1,17 +1,15 @@
 //! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
 
-use nalgebra::Vector2;
-
 use super::engine::{Engine, Failure, Make, Path, bases, condensations};
+use super::laws::Laws;
 use super::loading::{Ledger, Load};
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
 use crate::assembly::{Pattern, Symmetric};
-use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
-    Point, Ramp, Respond, Settings, Solution,
+    Point, Ramp, Settings, Solution,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -21,15 +19,15 @@ const DEFECTS: usize = 3;
 
 /// Newton's method on a form of the equilibrium that is made anew for every set of supports.
 pub(super) struct NewtonEngine<'a, F> {
-    problem: &'a Problem,
+    pub(super) problem: &'a Problem,
     /// All joints are elastic.
     linear: bool,
-    settings: Settings,
+    pub(super) settings: Settings,
     make: Make<'a, F>,
-    form: Option<(Vec<bool>, F, Newton)>,
+    pub(super) form: Option<(Vec<bool>, F, Newton)>,
     /// Unknowns of the form at the accepted increment before the last, at the last, and at what was found last.
     before: Vec<f64>,
-    unknowns: Vec<f64>,
+    pub(super) unknowns: Vec<f64>,
     found: Vec<f64>,
     /// Forces of the joints at the last accepted increment, and at what was found last.
     forces: [Vec<Vec<f64>>; 2],
@@ -124,6 +122,59 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
 }
 
 impl<F: Form> NewtonEngine<'_, F> {
+    /// Equilibrium under a load, sought from the better of two starts.
+    fn solve_from(
+        &mut self,
+        [near, mut start]: [Vec<f64>; 2],
+        laws: &Laws,
+        load: &Load,
+        complete: bool,
+    ) -> Result<Found, Failure> {
+        let mut target = self.target(load)?;
+        let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let (mut residuals, mut passes) = (Vec::new(), 0);
+        // the first increment of a step shows whether displacements are needed against the rounding of the others
+        let complete = complete || self.first || !self.trusted;
+        let (iterate, solution) = loop {
+            let starts = [&near, &start];
+            let iterate = newton.solve(form, laws, &starts, &target, self.settings);
+            let iterate = iterate.map_err(Failure::Unconverged)?;
+            residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
+            if !complete {
+                break (iterate, None);
+            }
+            let solution = form.recover(&iterate.x, &iterate.forces, &load.loaded, &load.prescribed);
+            let defect = form.defect(&iterate.x, &solution.u);
+            let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
+            passes += 1;
+            if defect.is_empty() || left <= self.settings.tolerance || passes > DEFECTS {
+                break (iterate, Some(solution));
+            }
+            target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
+            start = iterate.x;
+        };
+        self.trusted &= passes <= 1;
+        self.first = false;
+        let ledger = match self.measured {
+            true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
+            false => None,
+        };
+        Ok(self.found(solution, ledger, residuals, iterate))
+    }
+
+    /// b of a load.
+    pub(super) fn target(&self, load: &Load) -> Result<Vec<f64>, Failure> {
+        let Some((_, form, _)) = &self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let target = match self.prepared {
+            true => form.prepared(load.level),
+            false => form.target(&load.loaded, &load.prescribed),
+        };
+        match target.iter().all(|value| value.is_finite()) {
+            true => Ok(target),
+            false => Err(Failure::Unusable(f64::INFINITY)),
+        }
+    }
+
     /// Keeps a solution for its acceptance, and tells the march of it.
     fn found(
         &mut self,
@@ -167,48 +218,24 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure> {
-        let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
-        let mut target = match self.prepared {
-            true => form.prepared(load.level),
-            false => form.target(&load.loaded, &load.prescribed),
-        };
-        if !target.iter().all(|value| value.is_finite()) {
-            return Err(Failure::Unusable(f64::INFINITY));
-        }
         let onwards = |part: f64| -> Vec<f64> {
             let along = |(now, before): (&f64, &f64)| now + part * ahead * (now - before);
             self.unknowns.iter().zip(&self.before).map(along).collect()
         };
-        let (near, mut start) = (onwards(NEAR), onwards(1.0));
-        let (mut residuals, mut passes) = (Vec::new(), 0);
-        // the first increment of a step shows whether displacements are needed against the rounding of the others
-        let complete = complete || self.first || !self.trusted;
-        let (iterate, solution) = loop {
-            let starts = [&near, &start];
-            let iterate = newton.solve(form, &laws, &starts, &target, self.settings);
-            let iterate = iterate.map_err(Failure::Unconverged)?;
-            residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
-            if !complete {
-                break (iterate, None);
-            }
-            let solution = form.recover(&iterate.x, &iterate.forces, &load.loaded, &load.prescribed);
-            let defect = form.defect(&iterate.x, &solution.u);
-            let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
-            passes += 1;
-            if defect.is_empty() || left <= self.settings.tolerance || passes > DEFECTS {
-                break (iterate, Some(solution));
-            }
-            target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
-            start = iterate.x;
-        };
-        self.trusted &= passes <= 1;
-        self.first = false;
-        let ledger = match self.measured {
-            true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
-            false => None,
-        };
-        Ok(self.found(solution, ledger, residuals, iterate))
+        let starts = [onwards(NEAR), onwards(1.0)];
+        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
+        self.solve_from(starts, &laws, load, complete)
+    }
+
+    fn relax(&mut self, state: &State, load: &Load, complete: bool) -> Result<Found, Failure> {
+        let (start, states, spent, iterations) = self.let_go(&state.snapshot.states, load)?;
+        let laws = Laws { problem: self.problem, old: &states };
+        let mut found = self.solve_from([start.clone(), start], &laws, load, complete)?;
+        for (answer, spent) in found.joints.iter_mut().zip(&spent) {
+            answer.memory.iter_mut().zip(spent).for_each(|(answer, spent)| answer.dissipation += spent);
+        }
+        found.iterations += iterations;
+        Ok(found)
     }
 
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure> {
@@ -252,49 +279,5 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         self.forces.swap(0, 1);
         std::mem::swap(&mut self.before, &mut self.unknowns);
         std::mem::swap(&mut self.unknowns, &mut self.found);
-    }
-}
-
-/// The laws with the states at the last accepted increment.
-struct Laws<'a> {
-    problem: &'a Problem,
-    old: &'a [Vec<law::State>],
-}
-
-impl Respond for Laws<'_> {
-    type Memory = Answer;
-
-    fn respond(
-        &self,
-        joint: usize,
-        point: usize,
-        jump: &[f64],
-        traction: &mut [f64],
-        stiffness: &mut [f64],
-    ) -> Result<Answer, String> {
-        let (law, _) = &self.problem.laws[joint];
-        if let Law::Elastic(_) = law {
-            let [kn, kt] = law.elastic_stiffness();
-            traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
-            stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
-            return Ok(Answer::default());
-        }
-        let stepping = self.problem.stepping[joint];
-        let answer = law
-            .respond(Vector2::new(jump[0], jump[1]), &self.old[joint][point], stepping)
-            .map_err(|why| why.to_string())?;
-        traction.copy_from_slice(answer.traction.as_slice());
-        stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
-        let gradient = answer.dissipation_gradient.into();
-        Ok(Answer { state: answer.state, dissipation: answer.dissipation, gradient })
-    }
-
-    fn dissipation<'m>(&self, memory: &'m Answer) -> (f64, &'m [f64]) {
-        (memory.dissipation, &memory.gradient)
-    }
-
-    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {
-        let [kn, kt] = self.problem.laws[joint].0.elastic_stiffness();
-        stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
     }
 }

@@ -51,6 +51,8 @@ pub(super) struct Standing {
     pub(super) ratio: f64,
     /// The most that the joints have carried, as `State::carried`.
     most: f64,
+    /// Part of an increment by which the next leap goes on.
+    width: f64,
 }
 
 impl<'a> Course<'a, '_> {
@@ -61,7 +63,7 @@ impl<'a> Course<'a, '_> {
         self.engine.prepare(Some(&ramp), &[]);
         self.state.open(None);
         let part = 1.0 / stage.increments as f64;
-        let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, ratio: 1.0, most: 0.0 };
+        let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, ratio: 1.0, most: 0.0, width: LEAST };
         let mut rising = 0.0;
         let mut passed = [(self.state.dissipated, 0.0); 3];
         for number in 1..=MOST * stage.increments {
@@ -75,10 +77,13 @@ impl<'a> Course<'a, '_> {
             };
             let iterations = match found? {
                 Ok(iterations) => iterations,
-                Err(why) => {
-                    let place = Place { number, load_factor: at.level, ..self.place(step, stage) };
-                    return self.stop(place, start, &why);
-                }
+                Err(why) => match self.let_go(start, &mut at, stage, part)? {
+                    Some(iterations) => iterations,
+                    None => {
+                        let place = Place { number, load_factor: at.level, ..self.place(step, stage) };
+                        return self.stop(place, start, &why);
+                    }
+                },
             };
             passed = [passed[1], passed[2], (self.state.dissipated, at.level)];
             if rising * (at.level - before) < 0.0 {
@@ -174,6 +179,24 @@ impl<'a> Course<'a, '_> {
             amount *= SMALLER;
         }
         Ok(Err(why))
+    }
+
+    /// From where no step along the path is found to a stable equilibrium at a load level a little above, by letting the
+    /// joints go. That is a leap if it releases energy.
+    fn let_go(&mut self, start: &Start, at: &mut Standing, stage: &Stage, part: f64) -> Result<Option<usize>> {
+        let level = (at.level + at.width * part).min(1.0);
+        let Ok(found) = self.engine.relax(&self.state, &start.at(level)?, true) else { return Ok(None) };
+        let spent = State::dissipation(self.problem, &found);
+        let leaps = self.leaps(&found);
+        if std::env::var("DBG").is_ok() { eprintln!("LEAP at {level} {leaps} width {} spent {spent}", at.width); }
+        let iterations = self.take(start, found, at, level, if leaps { 0.0 } else { spent })?;
+        if leaps {
+            self.leapt(stage, level);
+            (at.change, at.width) = (0.0, LEAST);
+        } else {
+            at.width = (2.0 * at.width).min(1.0);
+        }
+        Ok(Some(iterations))
     }
 
     /// Change of what the joints carry, relative to what they carry now; of exhausted joints, to a small part of the most.
