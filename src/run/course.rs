@@ -130,7 +130,9 @@ impl<'a, 'b> Course<'a, 'b> {
                                 }
                                 self.engine.accept();
                                 self.state.accept(problem, found, start.at(reached)?);
-                                (last, level) = (f64::INFINITY, reached);
+                                last = if leaps { f64::INFINITY } else { reached - level };
+                                level = reached;
+                                width = if leaps { 2.0 * width } else { (8.0 * width).min(part) };
                             }
                             Err(_) => {
                                 lost = Some(why);

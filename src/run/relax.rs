@@ -16,12 +16,14 @@ use super::newton::NewtonEngine;
 use crate::law;
 use crate::solver::{Form, Settings, Unconverged};
 
-/// A step of the leap is this exact,
-const TOLERANCE: f64 = 1e-6;
-/// in at most this many iterations.
+/// Newton's method without the drag is tried from where the drag carries less than this part of the load.
+const NEAR: f64 = 1e-6;
+/// Most iterations of a step.
 const ITERATIONS: usize = 15;
 /// Found in at most this many, it is followed by one with less drag.
 const EASY: usize = 6;
+/// A step changes what the joints carry by at most this part, as a mean square: a longer one may pass over an equilibrium.
+const CHANGED: f64 = 0.1;
 /// How the drag changes.
 const FACTOR: f64 = 4.0;
 /// Most steps of a leap.
@@ -29,7 +31,7 @@ const STEPS: usize = 400;
 /// The drag, as a part of the joints' stiffness: what still moves below is not held by anything, what is not found above has
 /// no answer.
 const LEAST: f64 = 1e-14;
-const MOST: f64 = 1e6;
+const MOST: f64 = 1e2;
 
 /// Where a leap ends: unknowns, states of the laws, what they have dissipated per area on the way, iterations.
 type Rest = (Vec<f64>, Vec<Vec<law::State>>, Vec<Vec<f64>>, usize);
@@ -40,11 +42,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         let target = self.target(load)?;
         let stiffness = self.problem.laws.iter().flat_map(|(law, _)| law.elastic_stiffness());
         let most = stiffness.fold(0.0, f64::max);
-        let settings = Settings {
-            tolerance: self.settings.tolerance.max(TOLERANCE),
-            iterations: ITERATIONS,
-            initial_tangent: false,
-        };
+        let settings = Settings { iterations: ITERATIONS, initial_tangent: false, ..self.settings };
         let problem = self.problem;
         let mut x = self.unknowns.clone();
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
@@ -59,6 +57,7 @@ impl<F: Form> NewtonEngine<'_, F> {
                 Ok(step) => step,
                 Err(failed) => {
                     iterations += failed.iterations;
+                    if std::env::var("DBG").is_ok() { eprintln!("fail drag {drag:e} {failed:?}"); }
                     (drag, why) = (drag * FACTOR, failed);
                     if drag > MOST * most {
                         break;
@@ -67,6 +66,15 @@ impl<F: Form> NewtonEngine<'_, F> {
                 }
             };
             iterations += step.iterations;
+            let (change, carried) = self_change(problem, form.active(), &states, &step.memory);
+            if change > CHANGED * carried {
+                drag *= FACTOR;
+                if std::env::var("DBG").is_ok() { eprintln!("far {:e}", change / carried); }
+                if drag > MOST * most {
+                    break;
+                }
+                continue;
+            }
             let mut pulled: Vec<Vec<f64>> = Vec::new();
             for ((&k, jumps), tractions) in form.active().iter().zip(&step.jumps).zip(&step.tractions) {
                 let old = states[k].iter().flat_map(|state| state.jump.iter().copied().collect::<Vec<f64>>());
@@ -86,8 +94,12 @@ impl<F: Form> NewtonEngine<'_, F> {
                 eprintln!("drag {drag:e} left {left:e} iterations {}", step.iterations);
             }
             x = step.x;
-            if left <= TOLERANCE {
-                return Ok((x, states, spent, iterations));
+            if left <= NEAR {
+                let laws = Laws { problem, old: &states };
+                match newton.solve(form, &laws, &[&x], &target, self.settings) {
+                    Ok(last) => return Ok((last.x, states, spent, iterations + last.iterations)),
+                    Err(failed) => iterations += failed.iterations,
+                }
             }
             if step.iterations <= EASY {
                 drag /= FACTOR;
@@ -98,4 +110,15 @@ impl<F: Form> NewtonEngine<'_, F> {
         }
         Err(Failure::Unconverged(Unconverged { iterations, ..why }))
     }
+}
+
+fn self_change(problem: &crate::problem::Problem, active: &[usize], states: &[Vec<law::State>], memory: &[Vec<super::state::Answer>]) -> (f64, f64) {
+    let mut c = (0.0, 0.0);
+    for (&k, memory) in active.iter().zip(memory) {
+        for ((p, old), new) in problem.model.joints[k].coupling.points.iter().zip(&states[k]).zip(memory) {
+            c.0 += p.weight * (new.state.traction - old.traction).norm_squared();
+            c.1 += p.weight * old.traction.norm_squared();
+        }
+    }
+    c
 }
