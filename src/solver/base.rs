@@ -9,7 +9,7 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut};
 
-use super::dense::{cholesky, cholesky_solve, parallelism};
+use super::dense::{cholesky, cholesky_solve, detach, parallelism};
 use super::linear::tractions;
 use super::refine::Factored;
 use super::{Condensation, Continuum, NotPositiveDefinite, Solution};
@@ -52,8 +52,7 @@ impl<'a> Base<'a> {
         }
         for (dof, _) in held.iter().enumerate().filter(|(_, held)| **held) {
             if let Some(k) = place(dof) {
-                (0..k).for_each(|j| border[(k, j)] = 0.0);
-                (k + 1..border.nrows()).for_each(|i| border[(i, k)] = 0.0);
+                detach(&mut border, k);
             }
         }
         cholesky(&mut border, parallelism(continuum.border()))?;
@@ -61,14 +60,8 @@ impl<'a> Base<'a> {
     }
 
     /// Solves with the border in place; held dofs stay where they are.
-    fn solve_border(&self, mut x: MatMut<f64>) {
-        let held = self.held.iter().zip(&self.continuum.places).filter(|(held, _)| **held);
-        let places: Vec<usize> = held.filter_map(|(_, place)| place.map(|place| place as usize)).collect();
-        let clear =
-            |x: &mut MatMut<f64>| (0..x.ncols()).for_each(|k| places.iter().for_each(|&i| x[(i, k)] = 0.0));
-        clear(&mut x);
-        cholesky_solve(&self.border, x.as_mut());
-        clear(&mut x);
+    fn solve_border(&self, x: MatMut<f64>) {
+        self.continuum.solve_border(&self.held, x, |x| cholesky_solve(&self.border, x));
     }
 
     /// Solves for external forces `f` and prescribed displacements (read where held).

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use faer::{Mat, MatMut, Par};
 use rayon::prelude::*;
 
-use super::dense::{cholesky, cholesky_solve};
+use super::dense::{cholesky, cholesky_solve, detach};
 use super::motions::free_motions;
 use super::refine::Factored;
 use super::{Condensation, Continuum, NotPositiveDefinite};
@@ -41,8 +41,7 @@ impl<'a> Bodies<'a> {
             let inside = places.iter().enumerate().filter_map(|(dof, place)| Some((dof, (*place)? as usize)));
             for (dof, k) in inside.clone() {
                 if held[dof] {
-                    (0..k).for_each(|j| s[(k, j)] = 0.0);
-                    (k + 1..s.nrows()).for_each(|i| s[(i, k)] = 0.0);
+                    detach(&mut s, k);
                 }
             }
             let mean = (0..s.nrows()).map(|k| s[(k, k)]).sum::<f64>() / s.nrows().max(1) as f64;
@@ -63,17 +62,13 @@ impl<'a> Bodies<'a> {
     }
 
     /// F̂ on the border in place; held dofs stay where they are.
-    fn solve_border(&self, mut x: MatMut<f64>) {
-        let held = self.held.iter().zip(&self.continuum.places).filter(|(held, _)| **held);
-        let places: Vec<usize> = held.filter_map(|(_, place)| place.map(|place| place as usize)).collect();
-        let clear =
-            |x: &mut MatMut<f64>| (0..x.ncols()).for_each(|k| places.iter().for_each(|&i| x[(i, k)] = 0.0));
-        clear(&mut x);
-        for (b, factor) in self.factors.iter().enumerate() {
-            let border = self.continuum.border_of(b);
-            cholesky_solve(factor, x.as_mut().subrows_mut(border.start, border.len()));
-        }
-        clear(&mut x);
+    fn solve_border(&self, x: MatMut<f64>) {
+        self.continuum.solve_border(&self.held, x, |mut x| {
+            for (b, factor) in self.factors.iter().enumerate() {
+                let border = self.continuum.border_of(b);
+                cholesky_solve(factor, x.as_mut().subrows_mut(border.start, border.len()));
+            }
+        });
     }
 
     /// Nᵀ f̂ of every body for loads that are zero at held dofs.

@@ -184,6 +184,17 @@ impl Continuum {
         whole
     }
 
+    /// Solves on the border in place with what solves on all of it; held dofs stay where they are.
+    pub(super) fn solve_border(&self, held: &[bool], mut x: MatMut<f64>, solve: impl FnOnce(MatMut<f64>)) {
+        let held = held.iter().zip(&self.places).filter(|(held, _)| **held);
+        let places: Vec<usize> = held.filter_map(|(_, place)| place.map(|place| place as usize)).collect();
+        let clear =
+            |x: &mut MatMut<f64>| (0..x.ncols()).for_each(|k| places.iter().for_each(|&i| x[(i, k)] = 0.0));
+        clear(&mut x);
+        solve(x.as_mut());
+        clear(&mut x);
+    }
+
     /// What the border needs of several right-hand sides.
     pub(super) fn on_border(&self, condensation: &Condensation, b: &[Vec<f64>]) -> Mat<f64> {
         self.forward(condensation, b).1

@@ -22,6 +22,12 @@ pub(super) fn column_mut(x: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(x, n, 1)
 }
 
+/// Clears row and column k of a lower triangle but for the diagonal, so that equation k stands alone.
+pub(super) fn detach(s: &mut Mat<f64>, k: usize) {
+    (0..k).for_each(|j| s[(k, j)] = 0.0);
+    (k + 1..s.nrows()).for_each(|i| s[(i, k)] = 0.0);
+}
+
 /// L of a positive definite matrix, in place of its lower triangle.
 pub(super) fn cholesky(s: &mut Mat<f64>, par: Par) -> Result<(), NotPositiveDefinite> {
     let scratch = llt::factor::cholesky_in_place_scratch::<f64>(s.nrows(), par, Default::default());
