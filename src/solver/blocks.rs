@@ -27,7 +27,7 @@ use super::bodies::Bodies;
 use super::dense::column_mut;
 use super::motions::most;
 use super::refine::Factored;
-use super::{Condensation, Continuum, Form, Measure, NotPositiveDefinite, Ramp, Solution};
+use super::{Condensation, Continuum, Form, NotPositiveDefinite, Solution};
 use crate::assembly::{Joint, Tangent};
 use crate::coupling::Csr;
 
@@ -213,18 +213,6 @@ impl Form for Blocks<'_> {
             target[block.first..block.first + pushed.len()].copy_from_slice(&pushed);
         }
         target
-    }
-
-    fn prepare(&mut self, _: Option<&Ramp>, _: &[Measure]) -> bool {
-        false
-    }
-
-    fn prepared(&self, _: f64) -> Vec<f64> {
-        Vec::new()
-    }
-
-    fn measured(&self, _: f64, _: &[f64], _: &[Vec<f64>]) -> Vec<f64> {
-        Vec::new()
     }
 
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {

@@ -34,13 +34,20 @@ pub trait Form {
     fn active(&self) -> &[usize];
     /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
-    /// Prepares what loads that are affine in the load level allow; false if that is nothing. Then `prepared` has the
-    /// target at a level, and `measured` what was asked for, without recovering displacements.
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool;
+    /// Prepares what loads that are affine in the load level allow; false if that is nothing, as of a form that does not say
+    /// otherwise. Then `prepared` has the target at a level, and `measured` what was asked for, without recovering
+    /// displacements.
+    fn prepare(&mut self, _ramp: Option<&Ramp>, _measures: &[Measure]) -> bool {
+        false
+    }
     /// b at a level of the prepared loads.
-    fn prepared(&self, level: f64) -> Vec<f64>;
+    fn prepared(&self, _level: f64) -> Vec<f64> {
+        Vec::new()
+    }
     /// The measures of a solution at a level of the prepared loads.
-    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64>;
+    fn measured(&self, _level: f64, _x: &[f64], _forces: &[Vec<f64>]) -> Vec<f64> {
+        Vec::new()
+    }
     /// Jump coefficients of every active joint.
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
     /// R(x) for the forces q of every active joint on its jump coefficients.

@@ -13,7 +13,7 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use super::dense::column_mut;
 use super::linear::tractions;
-use super::{Form, Measure, Ramp, Solution};
+use super::{Form, Solution};
 use crate::assembly::{Joint, Pattern, Symmetric, Tangent};
 
 /// Rounding of one term of the residual, relative.
@@ -79,18 +79,6 @@ impl Form for Plain<'_> {
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
         let value = |i: usize| if self.held[i] { self.scale * prescribed[i] } else { force[i] };
         (0..force.len()).map(value).collect()
-    }
-
-    fn prepare(&mut self, _: Option<&Ramp>, _: &[Measure]) -> bool {
-        false
-    }
-
-    fn prepared(&self, _: f64) -> Vec<f64> {
-        Vec::new()
-    }
-
-    fn measured(&self, _: f64, _: &[f64], _: &[Vec<f64>]) -> Vec<f64> {
-        Vec::new()
     }
 
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {
