@@ -17,12 +17,12 @@ use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
-use faer::{Accum, Mat, Par};
+use faer::{Accum, Par};
 use rayon::prelude::*;
 
+use super::block::Block;
 use super::bodies::Bodies;
 use super::dense::column_mut;
 use super::motions::most;
@@ -50,20 +50,6 @@ pub struct Blocks<'a> {
     unknowns: usize,
     plan: Option<(SymbolicSparseColMat<usize>, Argsort<usize>, SymbolicLu<usize>)>,
     factor: Option<Lu<usize, f64>>,
-}
-
-/// What one body has to do with the joints.
-#[derive(Debug)]
-struct Block {
-    /// Unknowns of the jumps that it takes part in.
-    touched: Vec<usize>,
-    /// G F̂ Gᵀ on these.
-    flexibility: Mat<f64>,
-    /// G N on these.
-    moved: Mat<f64>,
-    /// Its first rigid motion among the unknowns, and how many there could be.
-    first: usize,
-    most: usize,
 }
 
 impl<'a> Blocks<'a> {
@@ -151,39 +137,6 @@ impl<'a> Blocks<'a> {
         let mut values: Vec<f64> = self.blocks.par_iter().flat_map_iter(of_block).collect();
         values.extend((0..self.first[self.joints.len()]).map(|_| 1.0));
         values
-    }
-}
-
-impl Block {
-    fn new(bodies: &Bodies, joints: &[Joint], first: &[usize], b: usize, start: (usize, usize)) -> Block {
-        let continuum = bodies.continuum;
-        let (dofs, border) = (continuum.dofs_of(b), continuum.border_of(b));
-        let mine = |joint: &&(usize, &Joint)| {
-            (0..joint.1.size()).any(|i| joint.1.row(i).0.iter().any(|dof| dofs.contains(dof)))
-        };
-        let all: Vec<(usize, &Joint)> = joints.iter().enumerate().collect();
-        let (mut touched, mut rows) = (Vec::new(), Vec::new());
-        for &(k, joint) in all.iter().filter(mine) {
-            touched.extend(first[k]..first[k + 1]);
-            rows.extend((0..joint.size()).map(|i| joint.row(i)));
-        }
-        let motions = &bodies.motions[b];
-        let mut x = Mat::zeros(border.len(), touched.len());
-        let mut moved = Mat::zeros(touched.len(), motions.len());
-        for (column, (of, values)) in rows.iter().enumerate() {
-            for (&dof, &value) in of.iter().zip(*values).filter(|(dof, _)| dofs.contains(dof)) {
-                if let Some(place) = continuum.places[dof].filter(|_| !bodies.held[dof]) {
-                    x[(place as usize - border.start, column)] = value;
-                }
-                for (k, motion) in motions.iter().enumerate() {
-                    moved[(column, k)] += value * motion[dof - dofs.start];
-                }
-            }
-        }
-        solve_lower_triangular_in_place(bodies.factors[b].as_ref(), x.as_mut(), Par::Seq);
-        let mut flexibility = Mat::zeros(touched.len(), touched.len());
-        matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, Par::Seq);
-        Block { touched, flexibility, moved, first: start.0, most: start.1 }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, joints and their stiffness.
 
 mod base;
+mod block;
 mod blocks;
 mod bodies;
 mod cholesky;

@@ -1,0 +1,68 @@
+//! What one body has to do with the joints of `blocks`: how the jumps it takes part in follow from forces on them and from
+//! its rigid motions.
+//!
+//! ```text
+//! Σ over bodies   a = … − G F̂ Gᵀ q + G N α
+//! ```
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, Mat, Par};
+
+use super::bodies::Bodies;
+use crate::assembly::Joint;
+
+/// What one body has to do with the joints.
+#[derive(Debug)]
+pub(super) struct Block {
+    /// Unknowns of the jumps that it takes part in.
+    pub(super) touched: Vec<usize>,
+    /// G F̂ Gᵀ on these.
+    pub(super) flexibility: Mat<f64>,
+    /// G N on these.
+    pub(super) moved: Mat<f64>,
+    /// Its first rigid motion among the unknowns, and how many there could be.
+    pub(super) first: usize,
+    pub(super) most: usize,
+}
+
+impl Block {
+    /// Of body `b`. `first`: first unknown of every joint; `start`: the body's first rigid motion among the unknowns, and
+    /// how many there could be.
+    pub(super) fn new(
+        bodies: &Bodies,
+        joints: &[Joint],
+        first: &[usize],
+        b: usize,
+        start: (usize, usize),
+    ) -> Block {
+        let continuum = bodies.continuum;
+        let (dofs, border) = (continuum.dofs_of(b), continuum.border_of(b));
+        let mine = |joint: &&(usize, &Joint)| {
+            (0..joint.1.size()).any(|i| joint.1.row(i).0.iter().any(|dof| dofs.contains(dof)))
+        };
+        let all: Vec<(usize, &Joint)> = joints.iter().enumerate().collect();
+        let (mut touched, mut rows) = (Vec::new(), Vec::new());
+        for &(k, joint) in all.iter().filter(mine) {
+            touched.extend(first[k]..first[k + 1]);
+            rows.extend((0..joint.size()).map(|i| joint.row(i)));
+        }
+        let motions = &bodies.motions[b];
+        let mut x = Mat::zeros(border.len(), touched.len());
+        let mut moved = Mat::zeros(touched.len(), motions.len());
+        for (column, (of, values)) in rows.iter().enumerate() {
+            for (&dof, &value) in of.iter().zip(*values).filter(|(dof, _)| dofs.contains(dof)) {
+                if let Some(place) = continuum.places[dof].filter(|_| !bodies.held[dof]) {
+                    x[(place as usize - border.start, column)] = value;
+                }
+                for (k, motion) in motions.iter().enumerate() {
+                    moved[(column, k)] += value * motion[dof - dofs.start];
+                }
+            }
+        }
+        solve_lower_triangular_in_place(bodies.factors[b].as_ref(), x.as_mut(), Par::Seq);
+        let mut flexibility = Mat::zeros(touched.len(), touched.len());
+        matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, Par::Seq);
+        Block { touched, flexibility, moved, first: start.0, most: start.1 }
+    }
+}
