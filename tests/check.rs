@@ -1,60 +1,26 @@
 //! Claim: `midplane check` says of every interface what it is, warns of what spoils it, and `--plot` writes it to look at.
 
 mod common;
-
-use std::path::Path;
-use std::process::{Command, Output};
+#[path = "common/squares.rs"]
+mod squares;
 
 use common::{bind, even, rectangle};
 use midplane::error::Code;
 use midplane::shape::Shape;
+use squares::{SCENE, midplane, structured, write};
+use tempfile::TempDir;
 
-/// A square of n × 2 quadrilaterals with its lower left corner at (x, y).
-fn square(y: f64, n: usize) -> String {
-    format!(
-        "Point(1) = {{0, {y}, 0}}; Point(2) = {{1, {y}, 0}}; Point(3) = {{1, {y} + 1, 0}}; Point(4) = {{0, {y} + 1, 0}};
-Line(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(3) = {{3, 4}}; Line(4) = {{4, 1}};
-Curve Loop(1) = {{1 : 4}}; Plane Surface(1) = {{1}};
-Transfinite Curve {{1, 3}} = {n} + 1; Transfinite Curve {{2, 4}} = 3; Transfinite Surface {{1}}; Recombine Surface {{1}};
-Physical Curve(\"bottom\") = {{1}}; Physical Curve(\"top\") = {{3}}; Physical Curve(\"left\") = {{4}};
-Physical Surface(\"body\") = {{1}};\n"
-    )
-}
-
-const SCENE: &str = r#"{
-  "plane": "strain",
-  "subdomains": {
-    "lower": { "geo": "lower.geo", "material": "rock" },
-    "upper": { "geo": "upper.geo", "material": "rock" }
-  },
-  "materials": { "rock": { "young": 1e4, "poisson": 0.0 } },
-  "interfaces": {
-    "joint": {
-      "side_a": "lower.top", "side_b": "upper.bottom",
-      "law": { "type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e7 }
-    }
-  },
-  "steps": [ {
-    "name": "compression",
-    "fix": { "lower.bottom": ["x", "y"] },
-    "load": { "upper.top": { "pressure": 10.0 } }
-  } ],
-  "output": { "history": { "u": "upper.left.displacement_y" } }
-}
-"#;
-
-fn midplane(folder: &Path, arguments: &[&str]) -> Output {
-    std::fs::write(folder.join("lower.geo"), square(0.0, 3)).unwrap();
-    std::fs::write(folder.join("upper.geo"), square(1.0, 5)).unwrap();
-    std::fs::write(folder.join("scene.json"), SCENE).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
-    command.current_dir(folder).args(arguments).output().unwrap()
+/// A scene folder with three edges against five.
+fn squares() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &structured(3), &structured(5), SCENE);
+    folder
 }
 
 /// 3 edges against 5: 3 + 5 − 1 segments, three grid cells, K_N h/E = 1e7 · ⅓ / 1e4.
 #[test]
 fn the_table_has_every_number_of_a_joint() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = squares();
     let output = midplane(folder.path(), &["check", ".", "-o", "out"]);
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{err}");
@@ -62,7 +28,7 @@ fn the_table_has_every_number_of_a_joint() {
     let columns: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(columns, ["joint", "3:5", "0.60", "7", "4", "1.000000", "0.0e0", "0.0e0", "0.0°", "3.33e2"]);
     // the group that no key and no probe names is told, in a check only
-    let told = "warning: W09 subdomain lower: nothing uses its group left\n         cure: ";
+    let told = "warning: W09 subdomain upper: nothing uses its group corner\n         cure: ";
     assert!(err.starts_with(told) && err.lines().count() == 2, "{err}");
     let run = midplane(folder.path(), &["run", ".", "-o", "out"]);
     assert!(run.status.success() && run.stderr.is_empty(), "{}", String::from_utf8_lossy(&run.stderr));
@@ -71,7 +37,7 @@ fn the_table_has_every_number_of_a_joint() {
 
 #[test]
 fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = squares();
     let checks = folder.path().join("out/check");
     std::fs::create_dir_all(&checks).unwrap();
     std::fs::write(checks.join("old.vtu"), "of another scene").unwrap();

@@ -1,0 +1,84 @@
+//! Two unit squares on each other under pressure, as a user writes them, and the program run on them.
+//!
+//! ```text
+//!   p p p p p
+//!  ┌─────────┐  y = 2     top = −p (2/E + 1/K_N), whatever the meshes
+//!  │  upper  │
+//!  ├─────────┤  y = 1     joint: lower.top, upper.bottom
+//!  │  lower  │
+//!  └─────────┘  y = 0     corner: the left end of the bottom
+//! ```
+
+#![allow(dead_code)] // each test file uses a part of it
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+/// A square of triangles; `@` is the height of its bottom.
+pub const SQUARE: &str = "DefineConstant[ n = {3, Name \"edges\"} ];
+Point(1) = {0, @, 0}; Point(2) = {1, @, 0}; Point(3) = {1, @ + 1, 0}; Point(4) = {0, @ + 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4}; Plane Surface(1) = {1};
+Transfinite Curve {1, 3} = n + 1; Transfinite Curve {2, 4} = 3;
+Physical Point(\"corner\") = {1};
+Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {3};
+Physical Surface(\"body\") = {1};
+";
+
+/// What makes it n × 2 quadrilaterals.
+const STRUCTURED: &str = "Transfinite Surface {1}; Recombine Surface {1};\n";
+
+pub const SCENE: &str = r#"{
+  "plane": "strain",
+  "subdomains": {
+    "lower": { "geo": "lower.geo", "material": "rock" },
+    "upper": { "geo": "upper.geo", "material": "rock" }
+  },
+  "materials": { "rock": { "young": 1e4, "poisson": 0.0 } },
+  "interfaces": {
+    "joint": {
+      "side_a": "lower.top", "side_b": "upper.bottom",
+      "law": { "type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e7 }
+    }
+  },
+  "steps": [ {
+    "name": "compression",
+    "fix": { "lower.bottom": ["y"], "lower.corner": ["x"] },
+    "load": { "upper.top": { "pressure": 10.0 } }
+  } ],
+  "output": { "history": { "top": "upper.top.displacement_y" } }
+}
+"#;
+
+/// A square of n × 2 quadrilaterals.
+pub fn structured(n: usize) -> String {
+    format!("{SQUARE}{STRUCTURED}").replace("n = {3", &format!("n = {{{n}"))
+}
+
+/// A text with its one change, which must be one.
+pub fn changed(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "no {from} in\n{text}");
+    text.replacen(from, to, 1)
+}
+
+/// Writes a scene folder.
+pub fn write(folder: &Path, lower: &str, upper: &str, scene: &str) {
+    std::fs::write(folder.join("lower.geo"), lower.replace('@', "0")).unwrap();
+    std::fs::write(folder.join("upper.geo"), upper.replace('@', "1")).unwrap();
+    std::fs::write(folder.join("scene.json"), scene).unwrap();
+}
+
+/// Runs the program in a folder.
+pub fn midplane(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
+    command.current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// Asserts that the top has come down as far as the closed form says, by the last row of the history in `out`.
+#[track_caller]
+pub fn assert_shortened(folder: &Path, what: &str) {
+    let history = std::fs::read_to_string(folder.join("out/history.csv")).unwrap();
+    let top: f64 = history.lines().last().unwrap().split(',').nth(5).unwrap().parse().unwrap();
+    let exact = -10.0 * (2.0 / 1e4 + 1.0 / 1e7);
+    assert!((top / exact - 1.0).abs() < 1e-10, "{what}: {top}, exact {exact}");
+}
