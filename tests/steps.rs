@@ -4,8 +4,10 @@
 mod common;
 
 use common::*;
+use midplane::law;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
+use midplane::run::State;
 use midplane::shape::Shape;
 
 fn scene(law: &str, steps: &str, more: &str) -> String {
@@ -95,24 +97,47 @@ fn what_holds_nothing_or_twice_is_refused() {
 
 #[test]
 fn increments_that_were_cut_leave_no_trace() {
-    // a path of many increments, and the same through one that must be cut: allowed two iterations only
-    let steps = |n: usize| {
+    // too few iterations for the whole, enough for its halves: as if the scene had asked for these
+    let steps = |n: usize, x: f64| {
         format!(
-            r#"{PRESS}, {{"name": "shear", "increments": {n}, "displace": {{"upper.left": {{"x": 4e-4}}, "upper.right": {{"x": 4e-4}}}}}}"#
+            r#"{PRESS}, {{"name": "shear", "increments": {n}, "displace": {{"upper.left": {{"x": {x}}}, "upper.right": {{"x": {x}}}}}}}"#
         )
     };
-    let cut = scene(COULOMB, &steps(1), r#""solution": {"iterations": 2},"#);
-    let cut = try_solve(&bind(&cut, blocks()).unwrap());
-    let totals = cut.end.unwrap();
-    assert!(totals.halved > 0, "nothing was cut");
-    assert!(totals.energy_balance < 1e-8);
-    assert_eq!(cut.states.len(), 2, "one row per increment of the scene");
-    let (fine, _) = solve(&problem(COULOMB, &steps(256)));
-    let (a, b) = (&cut.states[1], &fine[256]);
-    let largest = b.snapshot.tractions[0].as_flattened().iter().map(|t| t.abs()).fold(0.0, f64::max);
-    for (a, b) in a.snapshot.tractions[0].as_flattened().iter().zip(b.snapshot.tractions[0].as_flattened()) {
-        close(*a, *b, 2e-2, largest, "cut and fine");
+    for (law, x, iterations) in [(COULOMB, 1e-3, 3), (CRACKING, 3.5e-4, 6)] {
+        let few = format!(r#""solution": {{"iterations": {iterations}}},"#);
+        let cut = try_solve(&bind(&scene(law, &steps(1, x), &few), blocks()).unwrap());
+        let halves = try_solve(&problem(law, &steps(2, x)));
+        let totals = cut.end.unwrap();
+        assert_eq!(totals.halved, 1, "cut once, the parts are the halves: {law}");
+        assert!(totals.energy_balance < 1e-8);
+        assert_eq!(cut.states.len(), 2, "one row per increment of the scene");
+        assert_eq!(cut.iterations[1], iterations + halves.iterations[1] + halves.iterations[2]);
+        let (a, b) = (&cut.states[1], &halves.states[2]);
+        assert!(b.dissipated > 0.0);
+        same(&a.snapshot.u, &b.snapshot.u, "u");
+        same(&a.reactions, &b.reactions, "reactions");
+        same(a.snapshot.tractions[0].as_flattened(), b.snapshot.tractions[0].as_flattened(), "tractions");
+        let jumps = |point: &law::State| [point.jump.as_slice(), point.jump_plastic.as_slice()].concat();
+        same(&of_points(a, jumps), &of_points(b, jumps), "jumps and what of them is irreversible");
+        let fracture = |point: &law::State| vec![point.fracture_work];
+        same(&of_points(a, fracture), &of_points(b, fracture), "fracture work");
+        let status = |point: &law::State| vec![point.status];
+        assert_eq!(of_points(a, status), of_points(b, status));
+        same(&[a.work, a.stored, a.dissipated], &[b.work, b.stored, b.dissipated], "energies");
     }
+}
+
+/// What the law points of the joint remember.
+fn of_points<T>(state: &State, what: impl Fn(&law::State) -> Vec<T>) -> Vec<T> {
+    state.snapshot.states[0].iter().flat_map(what).collect()
+}
+
+/// Asserts that two lists are equal to the rounding of their largest number.
+#[track_caller]
+fn same(got: &[f64], exact: &[f64], what: &str) {
+    assert_eq!(got.len(), exact.len(), "{what}");
+    let largest = exact.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    got.iter().zip(exact).for_each(|(got, exact)| close(*got, *exact, 1e-12, largest, what));
 }
 
 #[test]
