@@ -61,10 +61,46 @@ pub(super) trait Engine {
 /// Factors for a set of supports; true if something was factored anew.
 pub(super) type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
 
-/// One factorisation per set of supports, one solve per increment, no iteration.
+/// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
+/// load level two at most.
 pub(super) struct LinearEngine<'a, F> {
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
+    /// The step's loads, if they are affine.
+    ends: Option<Ends>,
+}
+
+/// Solutions at the ends of a ramp, as far as they were needed. Between them the response is
+///
+/// ```text
+/// u(λ) = u₀ + λ (u₁ − u₀)
+/// ```
+struct Ends {
+    ramp: Ramp,
+    solutions: [Option<Solution>; 2],
+}
+
+impl Ends {
+    /// The solution at a load level; at 1 that is the end's own. Its backward error is the larger of both ends', relative to
+    /// what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding of the sum.
+    fn at(&mut self, factored: &impl Factored, level: f64) -> Option<Solution> {
+        let needed = if level == 1.0 { 1..2 } else { 0..2 };
+        let missing: Vec<usize> = needed.filter(|&end| self.solutions[end].is_none()).collect();
+        let load = |&end: &usize| (&self.ramp.force[end][..], &self.ramp.prescribed[end][..]);
+        let solved = factored.refined_all(&missing.iter().map(load).collect::<Vec<_>>());
+        missing.into_iter().zip(solved).for_each(|(end, solution)| self.solutions[end] = Some(solution));
+        let [start, end] = &self.solutions;
+        if level == 1.0 {
+            return end.clone();
+        }
+        let (start, end) = (start.as_ref()?, end.as_ref()?);
+        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + level * (b - a)).collect();
+        Some(Solution {
+            u: between(&start.u, &end.u),
+            reactions: between(&start.reactions, &end.reactions),
+            backward_error: start.backward_error.max(end.backward_error),
+        })
+    }
 }
 
 /// A solution with a larger backward error is not kept.
@@ -74,7 +110,7 @@ impl<'a> LinearEngine<'a, Linear<'a>> {
     /// With one factor of the whole.
     pub(super) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
         let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
-        LinearEngine { make: Box::new(make), factored: None }
+        LinearEngine { make: Box::new(make), factored: None, ends: None }
     }
 }
 
@@ -85,7 +121,7 @@ impl<'a> LinearEngine<'a, Base<'a>> {
         continuum: &'a Continuum,
         stiffness: &'a [Vec<f64>],
     ) -> Self {
-        LinearEngine { make: bases(problem, continuum, stiffness), factored: None }
+        LinearEngine { make: bases(problem, continuum, stiffness), factored: None, ends: None }
     }
 }
 
@@ -122,17 +158,21 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if self.factored.as_ref().is_some_and(|(of, _)| of == held) {
             return Ok(false);
         }
-        self.factored = None; // two factors at a time would not fit
+        (self.factored, self.ends) = (None, None); // two factors at a time would not fit
         let (factored, anew) = (self.make)(held)?;
         self.factored = Some((held.to_vec(), factored));
         Ok(anew)
     }
 
-    fn prepare(&mut self, _: Option<&Ramp>, _: &[Measure]) {}
+    fn prepare(&mut self, ramp: Option<&Ramp>, _: &[Measure]) {
+        self.ends = ramp.map(|ramp| Ends { ramp: ramp.clone(), solutions: [None, None] });
+    }
 
     fn solve(&mut self, _: &State, load: &Load, _: f64, _: bool) -> Result<Found, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let solution = factored.refined(&load.loaded, &load.prescribed);
+        let between = self.ends.as_mut().and_then(|ends| ends.at(factored, load.level));
+        let usable = between.filter(|solution| solution.backward_error <= UNUSABLE);
+        let solution = usable.unwrap_or_else(|| factored.refined(&load.loaded, &load.prescribed));
         if solution.backward_error > UNUSABLE {
             return Err(Failure::Unusable(solution.backward_error));
         }
@@ -153,4 +193,51 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
     }
 
     fn accept(&mut self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+
+    /// A free dof on a spring of stiffness 1 that counts the solves.
+    #[derive(Default)]
+    struct Spring(Cell<usize>);
+
+    impl Factored for Spring {
+        fn held(&self) -> &[bool] {
+            &[false]
+        }
+
+        fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+            vec![f[0] - u[0]]
+        }
+
+        fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
+            scale[0] += u[0].abs();
+        }
+
+        fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
+            self.add_scale(u, scale);
+        }
+
+        fn apply(&self, b: &mut [Vec<f64>]) {
+            self.0.set(self.0.get() + b.len());
+        }
+    }
+
+    #[test]
+    fn a_ramp_takes_two_solves_and_a_single_increment_one() {
+        for (increments, solves) in [(1, 1), (2, 2), (51, 2)] {
+            let spring = Spring::default();
+            let ramp = Ramp { force: [vec![1.0], vec![3.0]], prescribed: [vec![0.0], vec![0.0]] };
+            let mut ends = Ends { ramp, solutions: [None, None] };
+            for k in 1..=increments {
+                let level = k as f64 / increments as f64;
+                assert_eq!(ends.at(&spring, level).unwrap().u, [1.0 + level * 2.0]);
+            }
+            assert_eq!(spring.0.get(), solves, "{increments} increments");
+        }
+    }
 }

@@ -1,0 +1,71 @@
+//! Claim: where all joints are elastic, an increment of a ramp is the answer to the loads at its level, whatever increments
+//! come before it.
+
+mod common;
+
+use common::*;
+use midplane::mesh::Mesh;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+/// Pressed, then pushed and pressed on to a part of what is asked for: loads and displacements of the push at `level`.
+fn scene(increments: usize, level: f64, fields: &str) -> String {
+    let (pressure, x, weight) = (2.0 + 3.0 * level, 4e-4 * level, -5.0 * level);
+    format!(
+        r#"{{"plane": "strain",
+        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+        "materials": {{"m": {{"young": 1e4, "poisson": 0.2}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "initial_traction": [-0.5, 0.3],
+            "law": {{"type": "elastic", "normal_stiffness": 1e6, "tangential_stiffness": 1e5}}}}}},
+        "steps": [
+            {{"name": "press", "load": {{"upper.top": {{"pressure": 2}}}},
+              "fix": {{"lower.bottom": ["x", "y"], "upper.left": ["x"], "upper.right": ["x"]}}}},
+            {{"name": "push", "increments": {increments}, "load": {{"upper.top": {{"pressure": {pressure}}}}},
+              "body_force": {{"upper": [0, {weight}]}},
+              "displace": {{"upper.left": {{"x": {x}}}, "upper.right": {{"x": {x}}}}}}}],
+        "output": {{"fields": "{fields}", "history": {{
+            "x": "upper.top.displacement_x", "y": "upper.top.displacement_y",
+            "n": "joint.traction_n@0.5", "t": "joint.traction_t@0.3", "jump": "joint.jump_t@0.7"}}}}}}"#
+    )
+}
+
+fn problem(increments: usize, level: f64, fields: &str) -> Problem {
+    let block = |n: usize, y: f64| -> Mesh {
+        rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral8, |x, y| [x, y])
+    };
+    bind(&scene(increments, level, fields), vec![block(3, -0.2), block(4, 0.0)]).unwrap()
+}
+
+/// Columns of the history, work and stored energy.
+fn columns(problem: &Problem, state: &midplane::run::State) -> Vec<f64> {
+    [state.probes(problem), vec![state.work, state.stored]].concat()
+}
+
+#[test]
+fn an_increment_of_a_linear_scene_is_the_answer_to_its_loads_alone() {
+    let increments = 51;
+    let alone: Vec<_> = (1..=increments)
+        .map(|k| {
+            let problem = problem(1, k as f64 / increments as f64, "every");
+            let state = solve(&problem).0.pop().unwrap();
+            (columns(&problem, &state), state.snapshot.u)
+        })
+        .collect();
+    let largest = |i: usize| alone.iter().map(|(columns, _)| columns[i].abs()).fold(0.0, f64::max);
+    for fields in ["every", "last"] {
+        let problem = problem(increments, 1.0, fields);
+        let (states, totals) = solve(&problem);
+        assert_eq!((states.len(), totals.factorisations), (1 + increments, 1));
+        assert!(totals.residual < 1e-14, "{:e}", totals.residual);
+        for (k, (state, (alone, u))) in states[1..].iter().zip(&alone).enumerate() {
+            for (i, (got, exact)) in columns(&problem, state).into_iter().zip(alone).enumerate() {
+                let scale = largest(i);
+                close(got, *exact, 1e-12, scale, &format!("{fields}: column {i}, increment {k}"));
+            }
+            let scale = u.iter().map(|u| u.abs()).fold(0.0, f64::max);
+            // where fields are not stored there may be none
+            let all = state.snapshot.u.iter().zip(u);
+            all.for_each(|(got, exact)| close(*got, *exact, 1e-12, scale, &format!("{fields}: u {k}")));
+        }
+    }
+}
