@@ -5,6 +5,7 @@
 mod arclength;
 mod clock;
 mod course;
+mod energy;
 mod engine;
 mod failure;
 mod folder;

@@ -1,0 +1,91 @@
+//! What an increment does to the energies of the state before it, and what the joints carry.
+
+use super::loading::Load;
+use super::state::{Answer, Found, JointAnswer, State};
+use crate::assembly::{Joint, Model};
+use crate::coupling::LawPoint;
+use crate::law::{self, Law};
+use crate::problem::Problem;
+use crate::solver::Solution;
+
+impl State {
+    /// Energy that an increment dissipates [force × length].
+    pub(super) fn dissipation(problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+            points.map(|(point, memory)| point.weight * memory.dissipation).sum::<f64>()
+        };
+        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+    }
+
+    /// What the trapezium has of the work of the joints beyond what they store and dissipate in an increment
+    /// [force × length].
+    pub(super) fn released(&self, problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let (law, _) = &problem.laws[answer.joint];
+            let points = problem.model.joints[answer.joint].coupling.points.iter();
+            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
+            points.zip(states).map(|(p, (old, new))| -p.weight * beyond_trapezium(law, old, new)).sum::<f64>()
+        };
+        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+    }
+
+    /// What the joints carry, as the mean square of their tractions times length [stress² × length].
+    pub(super) fn carried(&self, problem: &Problem) -> f64 {
+        let joints = problem.model.joints.iter().zip(&self.snapshot.states);
+        let of = |(joint, states): (&Joint, &Vec<law::State>)| {
+            let points = joint.coupling.points.iter().zip(states);
+            points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
+        };
+        joints.map(of).sum()
+    }
+
+    /// Change of the tractions that an increment brings, measured alike.
+    pub(super) fn change(&self, problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let points = problem.model.joints[answer.joint].coupling.points.iter();
+            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
+            let change = |old: &law::State, new: &law::State| (new.traction - old.traction).norm_squared();
+            points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
+        };
+        found.joints.iter().map(of).sum()
+    }
+
+    /// ½ (f₀ + f₁) · Δu of loads and reactions.
+    pub(super) fn work_to(&self, solution: &Solution, load: &Load) -> f64 {
+        let at = |i: usize| {
+            let before = self.force[i] + self.reactions[i];
+            let now = load.force[i] + load.released[i] + solution.reactions[i];
+            0.5 * (before + now) * (solution.u[i] - self.snapshot.u[i])
+        };
+        (0..solution.u.len()).map(at).sum()
+    }
+
+    /// Σ q · a of the joints that are not elastic.
+    pub(super) fn across(&self, model: &Model) -> f64 {
+        let joints = model.joints.iter().zip(&self.snapshot.jumps).zip(&self.snapshot.states);
+        let points =
+            joints.flat_map(|((joint, jumps), states)| joint.coupling.points.iter().zip(jumps).zip(states));
+        let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
+            model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
+        };
+        points.map(at).sum()
+    }
+}
+
+/// ∫ t · dr − ½ (t₀ + t₁) · Δr of an increment at a law point.
+pub(super) fn beyond_trapezium(
+    law: &Law,
+    old: &law::State,
+    Answer { state: new, dissipation, .. }: &Answer,
+) -> f64 {
+    let along = elastic_energy(law, new) - elastic_energy(law, old) + dissipation;
+    along - 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump))
+}
+
+/// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].
+pub(super) fn elastic_energy(law: &Law, state: &law::State) -> f64 {
+    let [kn, kt] = law.elastic_stiffness();
+    let t = state.traction;
+    0.5 * (t.x * t.x / kn + t.y * t.y / kt)
+}
