@@ -194,6 +194,9 @@ impl State {
                 let jumps = &self.snapshot.jumps[k];
                 let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
                 self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
+                if !self.is_complete() {
+                    continue; // the ledger has the energy of elastic joints
+                }
                 for (p, r) in jumps.iter().enumerate() {
                     let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial.at(p)[i]) * r[i]).sum();
                     self.stored += area(p) * energy;
