@@ -56,6 +56,8 @@ fn an_increment_of_a_linear_scene_is_the_answer_to_its_loads_alone() {
         let problem = problem(increments, 1.0, fields);
         let (states, totals) = solve(&problem);
         assert_eq!((states.len(), totals.factorisations), (1 + increments, 1));
+        let without = states[1..increments].iter().filter(|state| state.snapshot.u.is_empty()).count();
+        assert_eq!(without, if fields == "last" { increments - 1 } else { 0 });
         assert!(totals.residual < 1e-14, "{:e}", totals.residual);
         for (k, (state, (alone, u))) in states[1..].iter().zip(&alone).enumerate() {
             for (i, (got, exact)) in columns(&problem, state).into_iter().zip(alone).enumerate() {
@@ -63,7 +65,7 @@ fn an_increment_of_a_linear_scene_is_the_answer_to_its_loads_alone() {
                 close(got, *exact, 1e-12, scale, &format!("{fields}: column {i}, increment {k}"));
             }
             let scale = u.iter().map(|u| u.abs()).fold(0.0, f64::max);
-            // where fields are not stored there may be none
+            // none where fields are not stored
             let all = state.snapshot.u.iter().zip(u);
             all.for_each(|(got, exact)| close(*got, *exact, 1e-12, scale, &format!("{fields}: u {k}")));
         }

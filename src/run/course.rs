@@ -74,7 +74,8 @@ impl<'a, 'b> Course<'a, 'b> {
         let ramp = start.ramp()?;
         // increments whose fields are not stored do without displacements where no joint needs them and it pays: a
         // measure costs about as much as recovering one increment
-        let unstored = problem.fields != Fields::Every && active(problem).len() == problem.model.joints.len();
+        let known = active(problem).len() == problem.model.joints.len() || self.engine.finds_all_jumps();
+        let unstored = problem.fields != Fields::Every && known;
         let measures =
             ramp.as_ref().filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
         let thrifty = !measures.is_empty() && measures.len() < stage.increments;

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::loading::Load;
-use super::state::{Found, State};
+use super::loading::{Ledger, Load};
+use super::state::{Found, JointAnswer, State};
+use crate::assembly::Joint;
 use crate::problem::Problem;
 use crate::solver::{
     Base, Condensation, Continuum, Factored, Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution,
@@ -40,6 +41,11 @@ pub(super) trait Engine {
     /// Prepares a step whose loads are affine in the load level, so that increments can do without displacements.
     fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]);
 
+    /// True if the jumps of all joints are found without displacements, those of elastic ones too.
+    fn finds_all_jumps(&self) -> bool {
+        false
+    }
+
     /// Equilibrium at a load level, sought from the last accepted one and from `ahead` times the last change beyond it.
     /// Displacements are recovered if they are asked for (`complete`) or needed.
     fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
@@ -64,43 +70,92 @@ pub(super) type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPos
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
 /// load level two at most.
 pub(super) struct LinearEngine<'a, F> {
+    joints: &'a [Joint],
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
     /// The step's loads, if they are affine.
     ends: Option<Ends>,
 }
 
-/// Solutions at the ends of a ramp, as far as they were needed. Between them the response is
+/// The answer to a load.
+struct Answered {
+    solution: Solution,
+    /// Jumps (n, t) of every joint, law point by law point.
+    jumps: Vec<Vec<f64>>,
+    measured: Vec<f64>,
+}
+
+impl Answered {
+    fn new(solution: Solution, joints: &[Joint], measures: &[Measure]) -> Answered {
+        let jumps = joints.iter().map(|joint| joint.jumps(&solution.u)).collect();
+        let measured = measures.iter().map(|measure| measure.of(&solution)).collect();
+        Answered { solution, jumps, measured }
+    }
+}
+
+/// Answers at the ends of a ramp, as far as they were needed. Between them the response is
 ///
 /// ```text
 /// u(λ) = u₀ + λ (u₁ − u₀)
 /// ```
+///
+/// and so are jumps and measures, with which an increment whose fields are not stored can do.
 struct Ends {
     ramp: Ramp,
-    solutions: [Option<Solution>; 2],
+    measures: Vec<Measure>,
+    answers: [Option<Answered>; 2],
 }
 
 impl Ends {
-    /// The solution at a load level; at 1 that is the end's own. Its backward error is the larger of both ends', relative to
-    /// what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding of the sum.
-    fn at(&mut self, factored: &impl Factored, level: f64) -> Option<Solution> {
+    /// The equilibrium at a load level, with displacements if it is to be `complete`. Its backward error is the larger of both
+    /// ends', relative to what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding
+    /// of the sum.
+    fn at(
+        &mut self,
+        factored: &impl Factored,
+        joints: &[Joint],
+        level: f64,
+        complete: bool,
+    ) -> Option<Found> {
         let needed = if level == 1.0 { 1..2 } else { 0..2 };
-        let missing: Vec<usize> = needed.filter(|&end| self.solutions[end].is_none()).collect();
+        let missing: Vec<usize> = needed.filter(|&end| self.answers[end].is_none()).collect();
         let load = |&end: &usize| (&self.ramp.force[end][..], &self.ramp.prescribed[end][..]);
         let solved = factored.refined_all(&missing.iter().map(load).collect::<Vec<_>>());
-        missing.into_iter().zip(solved).for_each(|(end, solution)| self.solutions[end] = Some(solution));
-        let [start, end] = &self.solutions;
-        if level == 1.0 {
-            return end.clone();
+        for (end, solution) in missing.into_iter().zip(solved) {
+            self.answers[end] = Some(Answered::new(solution, joints, &self.measures));
         }
-        let (start, end) = (start.as_ref()?, end.as_ref()?);
-        let between = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + level * (b - a)).collect();
-        Some(Solution {
-            u: between(&start.u, &end.u),
-            reactions: between(&start.reactions, &end.reactions),
-            backward_error: start.backward_error.max(end.backward_error),
-        })
+        let [start, end] = &self.answers;
+        let end = end.as_ref()?;
+        let start = if level == 1.0 { end } else { start.as_ref()? };
+        let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + level * (b - a)).collect()
+        };
+        let (a, b) = (&start.solution, &end.solution);
+        let backward_error = a.backward_error.max(b.backward_error);
+        let solution = || Solution {
+            u: between(&a.u, &b.u),
+            reactions: between(&a.reactions, &b.reactions),
+            backward_error,
+        };
+        let jumps = start.jumps.iter().zip(&end.jumps).map(|(a, b)| between(a, b)).collect();
+        let ledger = Ledger::new(level, &between(&start.measured, &end.measured));
+        Some(found(complete.then(solution), backward_error, jumps, ledger))
     }
+}
+
+/// What a linear scene tells the march of an equilibrium.
+fn found(
+    solution: Option<Solution>,
+    backward_error: f64,
+    jumps: Vec<Vec<f64>>,
+    ledger: Option<Ledger>,
+) -> Found {
+    let answer = |(joint, jumps): (usize, Vec<f64>)| {
+        let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+        JointAnswer { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
+    };
+    let joints = jumps.into_iter().enumerate().map(answer).collect();
+    Found { solution, ledger, joints, iterations: 0, residuals: vec![backward_error] }
 }
 
 /// A solution with a larger backward error is not kept.
@@ -110,7 +165,7 @@ impl<'a> LinearEngine<'a, Linear<'a>> {
     /// With one factor of the whole.
     pub(super) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
         let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
-        LinearEngine { make: Box::new(make), factored: None, ends: None }
+        LinearEngine { joints: system.joints, make: Box::new(make), factored: None, ends: None }
     }
 }
 
@@ -121,7 +176,8 @@ impl<'a> LinearEngine<'a, Base<'a>> {
         continuum: &'a Continuum,
         stiffness: &'a [Vec<f64>],
     ) -> Self {
-        LinearEngine { make: bases(problem, continuum, stiffness), factored: None, ends: None }
+        let (joints, make) = (&problem.model.joints, bases(problem, continuum, stiffness));
+        LinearEngine { joints, make, factored: None, ends: None }
     }
 }
 
@@ -164,20 +220,29 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         Ok(anew)
     }
 
-    fn prepare(&mut self, ramp: Option<&Ramp>, _: &[Measure]) {
-        self.ends = ramp.map(|ramp| Ends { ramp: ramp.clone(), solutions: [None, None] });
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
+        let ends =
+            |ramp: &Ramp| Ends { ramp: ramp.clone(), measures: measures.to_vec(), answers: [None, None] };
+        self.ends = ramp.map(ends);
     }
 
-    fn solve(&mut self, _: &State, load: &Load, _: f64, _: bool) -> Result<Found, Failure> {
+    fn finds_all_jumps(&self) -> bool {
+        true
+    }
+
+    fn solve(&mut self, _: &State, load: &Load, _: f64, complete: bool) -> Result<Found, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let between = self.ends.as_mut().and_then(|ends| ends.at(factored, load.level));
-        let usable = between.filter(|solution| solution.backward_error <= UNUSABLE);
-        let solution = usable.unwrap_or_else(|| factored.refined(&load.loaded, &load.prescribed));
-        if solution.backward_error > UNUSABLE {
-            return Err(Failure::Unusable(solution.backward_error));
+        let usable = |found: &Found| found.residuals[0] <= UNUSABLE;
+        let between =
+            self.ends.as_mut().and_then(|ends| ends.at(factored, self.joints, load.level, complete));
+        if let Some(found) = between.filter(usable) {
+            return Ok(found);
         }
-        let residuals = vec![solution.backward_error];
-        Ok(Found { solution: Some(solution), ledger: None, joints: Vec::new(), iterations: 0, residuals })
+        let solution = factored.refined(&load.loaded, &load.prescribed);
+        let Answered { solution, jumps, .. } = Answered::new(solution, self.joints, &[]);
+        let backward_error = solution.backward_error;
+        let found = found(Some(solution), backward_error, jumps, None);
+        if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
     }
 
     fn relax(&mut self, _: &State, _: &Load, _: bool) -> Result<Found, Failure> {
@@ -232,10 +297,11 @@ mod tests {
         for (increments, solves) in [(1, 1), (2, 2), (51, 2)] {
             let spring = Spring::default();
             let ramp = Ramp { force: [vec![1.0], vec![3.0]], prescribed: [vec![0.0], vec![0.0]] };
-            let mut ends = Ends { ramp, solutions: [None, None] };
+            let mut ends = Ends { ramp, measures: Vec::new(), answers: [None, None] };
             for k in 1..=increments {
                 let level = k as f64 / increments as f64;
-                assert_eq!(ends.at(&spring, level).unwrap().u, [1.0 + level * 2.0]);
+                let found = ends.at(&spring, &[], level, true).unwrap();
+                assert_eq!(found.solution.unwrap().u, [1.0 + level * 2.0]);
             }
             assert_eq!(spring.0.get(), solves, "{increments} increments");
         }

@@ -27,6 +27,17 @@ pub enum Measure {
     Reaction(Vec<(usize, f64)>),
 }
 
+impl Measure {
+    /// Its value for displacements and reactions.
+    pub fn of(&self, solution: &Solution) -> f64 {
+        let (terms, values) = match self {
+            Measure::Displacement(terms) => (terms, &solution.u),
+            Measure::Reaction(terms) => (terms, &solution.reactions),
+        };
+        terms.iter().map(|&(dof, weight)| weight * values[dof]).sum()
+    }
+}
+
 /// A measure on a condensed solution: value = ends, interpolated, + weights · e.
 #[derive(Debug)]
 pub(super) struct Functional {
