@@ -13,8 +13,11 @@ use crate::problem::{Problem, Stage};
 use crate::scene::{Control, Fields};
 use crate::solver::Unconverged;
 
-/// An increment is halved at most this many times.
+/// An increment is halved at most this many times before the joints are let go, and so many times more if they find no rest.
 const HALVINGS: i32 = 10;
+const LAST: i32 = 6;
+/// How many times wider than half of it an increment may be that follows one in which the joints were let go.
+const AFTER: f64 = 8.0;
 /// An increment found in at most this many iterations is followed by one of twice the size.
 const EASY: usize = 8;
 
@@ -118,23 +121,24 @@ impl<'a, 'b> Course<'a, 'b> {
                         iterations += why.iterations;
                         self.totals.halved += 1;
                         width = 0.5 * (reached - level);
-                        if width * (stage.increments as f64) >= 0.5_f64.powi(HALVINGS) {
+                        let smallest = 0.5_f64.powi(HALVINGS) * part;
+                        if width >= smallest {
                             continue;
                         }
-                        match self.engine.relax(&self.state, &start.at(reached)?, complete) {
+                        match self.engine.relax(&self.state, &load, complete) {
                             Ok(found) => {
-                                let leaps = self.leaps(&found);
                                 iterations += found.iterations;
-        if std::env::var("DBG").is_ok() { eprintln!("LEAP at {reached} {leaps} width {}", reached-level); }
+                                let leaps = self.leaps(&found);
                                 if leaps {
                                     self.leapt(stage, reached);
                                 }
                                 self.engine.accept();
-                                self.state.accept(problem, found, start.at(reached)?);
+                                self.state.accept(problem, found, load);
                                 last = if leaps { f64::INFINITY } else { reached - level };
+                                width = (AFTER * width).min(part);
                                 level = reached;
-                                width = if leaps { 2.0 * width } else { (8.0 * width).min(part) };
                             }
+                            Err(_) if width >= 0.5_f64.powi(LAST) * smallest => {}
                             Err(_) => {
                                 lost = Some(why);
                                 break;

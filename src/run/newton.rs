@@ -228,13 +228,13 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn relax(&mut self, state: &State, load: &Load, complete: bool) -> Result<Found, Failure> {
-        let (start, states, spent, iterations) = self.let_go(&state.snapshot.states, load)?;
-        let laws = Laws { problem: self.problem, old: &states };
-        let mut found = self.solve_from([start.clone(), start], &laws, load, complete)?;
-        for (answer, spent) in found.joints.iter_mut().zip(&spent) {
+        let rest = self.let_go(&state.snapshot.states, load)?;
+        let laws = Laws { problem: self.problem, old: &rest.states };
+        let mut found = self.solve_from([rest.x.clone(), rest.x], &laws, load, complete)?;
+        for (answer, spent) in found.joints.iter_mut().zip(&rest.spent) {
             answer.memory.iter_mut().zip(spent).for_each(|(answer, spent)| answer.dissipation += spent);
         }
-        found.iterations += iterations;
+        found.iterations += rest.iterations;
         Ok(found)
     }
 

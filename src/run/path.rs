@@ -31,6 +31,8 @@ pub(super) const TRACTIONS: f64 = 4.0;
 const LEAP: f64 = 4.0;
 /// The first increment that dissipates is divided down to this part, to begin where it does.
 const LEAST: f64 = 1e-3;
+/// Widths of the increment in which the joints are let go that are tried.
+const TRIES: usize = 5;
 /// Joints that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
 /// Most increments per increment of the scene.
@@ -183,20 +185,31 @@ impl<'a> Course<'a, '_> {
 
     /// From where no step along the path is found to a stable equilibrium at a load level a little above, by letting the
     /// joints go. That is a leap if it releases energy.
-    fn let_go(&mut self, start: &Start, at: &mut Standing, stage: &Stage, part: f64) -> Result<Option<usize>> {
-        let level = (at.level + at.width * part).min(1.0);
-        let Ok(found) = self.engine.relax(&self.state, &start.at(level)?, true) else { return Ok(None) };
-        let spent = State::dissipation(self.problem, &found);
-        let leaps = self.leaps(&found);
-        if std::env::var("DBG").is_ok() { eprintln!("LEAP at {level} {leaps} width {} spent {spent}", at.width); }
-        let iterations = self.take(start, found, at, level, if leaps { 0.0 } else { spent })?;
-        if leaps {
-            self.leapt(stage, level);
-            (at.change, at.width) = (0.0, LEAST);
-        } else {
-            at.width = (2.0 * at.width).min(1.0);
+    fn let_go(
+        &mut self,
+        start: &Start,
+        at: &mut Standing,
+        stage: &Stage,
+        part: f64,
+    ) -> Result<Option<usize>> {
+        for _ in 0..TRIES {
+            let level = (at.level + at.width * part).min(1.0);
+            let Ok(found) = self.engine.relax(&self.state, &start.at(level)?, true) else {
+                at.width *= SMALLER;
+                continue;
+            };
+            let leaps = self.leaps(&found);
+            let spent = if leaps { 0.0 } else { State::dissipation(self.problem, &found) };
+            let iterations = self.take(start, found, at, level, spent)?;
+            if leaps {
+                self.leapt(stage, level);
+                (at.change, at.width) = (0.0, LEAST);
+            } else {
+                at.width = (2.0 * at.width).min(1.0);
+            }
+            return Ok(Some(iterations));
         }
-        Ok(Some(iterations))
+        Ok(None)
     }
 
     /// Change of what the joints carry, relative to what they carry now; of exhausted joints, to a small part of the most.

@@ -1,124 +1,160 @@
-//! Where the way on ends at a load level, the joints let go: an over-damped leap to the next stable equilibrium.
+//! Where the way on ends, the joints let go: an over-damped leap to a stable equilibrium at the same load.
 //!
 //! ```text
-//! A(x) + q(r; r₀) + c (r − r₀) = b        r₀ ← r, the laws' states with it, until c (r − r₀) is nothing
+//! A(x) + q(r; r₀) + G c (r − r₀) = b      then r₀ ← r, and the laws' states with it, until the drag is nothing
+//! released = Σ h w (½ c (Δr₀ + Δr) · Δr − (∫ t · dr − ½ (t₀ + t) · Δr)) ≥ 0
 //! ```
 //!
-//! Every step is a backward Euler step of joints that a drag c holds back while everything else is in equilibrium. A drag
-//! above the slope of the softening leaves one solution, near r₀, so a step is found however far the leap goes; it releases
-//! energy, so the steps end, in a state that carries the whole load without the drag. The drag grows where a step is not
-//! found and falls where it is. Nothing of it is left in the result but the way that the laws took.
+//! Every step is a backward Euler step of joints that a drag c holds back while all else is in equilibrium. A drag above the
+//! slope of the softening leaves one solution, near r₀, so that a step is found wherever the leap goes. A step that does not
+//! release energy has passed over a barrier, to an equilibrium that no slow motion would reach; it is not taken. The drag grows
+//! where a step is not taken and falls where one is found with ease. The end carries its whole load without drag: nothing of it
+//! is left but the way that the laws took.
 
+use super::energy::beyond_trapezium;
 use super::engine::Failure;
 use super::laws::{Dragged, Laws};
 use super::loading::Load;
 use super::newton::NewtonEngine;
+use super::state::Answer;
 use crate::law;
-use crate::solver::{Form, Settings, Unconverged};
+use crate::problem::Problem;
+use crate::solver::{Form, Iterate, Settings, Unconverged};
 
-/// Newton's method without the drag is tried from where the drag carries less than this part of the load.
+/// Newton's method without drag is tried from where the drag carries less than this part of the load.
 const NEAR: f64 = 1e-6;
-/// Most iterations of a step.
+/// Most iterations of a step; one found in at most `EASY` is followed by one with less drag.
 const ITERATIONS: usize = 15;
-/// Found in at most this many, it is followed by one with less drag.
 const EASY: usize = 6;
-/// A step changes what the joints carry by at most this part, as a mean square: a longer one may pass over an equilibrium.
-const CHANGED: f64 = 0.1;
 /// How the drag changes.
 const FACTOR: f64 = 4.0;
-/// Most steps of a leap.
-const STEPS: usize = 400;
 /// The drag, as a part of the joints' stiffness: what still moves below is not held by anything, what is not found above has
 /// no answer.
 const LEAST: f64 = 1e-14;
 const MOST: f64 = 1e2;
+/// Most steps of a leap.
+const STEPS: usize = 400;
+/// A step may seem to take up this part of what it dissipates: the laws integrate that to their own tolerance.
+const TAKEN: f64 = 1e-3;
 
-/// Where a leap ends: unknowns, states of the laws, what they have dissipated per area on the way, iterations.
-type Rest = (Vec<f64>, Vec<Vec<law::State>>, Vec<Vec<f64>>, usize);
+/// Where the joints are on their way.
+pub(super) struct Rest {
+    /// Unknowns of the form.
+    pub(super) x: Vec<f64>,
+    /// States of all laws.
+    pub(super) states: Vec<Vec<law::State>>,
+    /// What the laws of every active joint have dissipated on the way per area.
+    pub(super) spent: Vec<Vec<f64>>,
+    /// Linear systems solved.
+    pub(super) iterations: usize,
+    /// c Δr of the last step at the law points of every active joint; none before the first.
+    pulls: Vec<Vec<f64>>,
+}
 
 impl<F: Form> NewtonEngine<'_, F> {
-    /// Lets the joints go from states that are no equilibrium under a load, until what is left is Newton's.
+    /// Lets the joints go from states that are no equilibrium under a load, until they need no drag.
     pub(super) fn let_go(&mut self, from: &[Vec<law::State>], load: &Load) -> Result<Rest, Failure> {
         let target = self.target(load)?;
-        let stiffness = self.problem.laws.iter().flat_map(|(law, _)| law.elastic_stiffness());
-        let most = stiffness.fold(0.0, f64::max);
-        let settings = Settings { iterations: ITERATIONS, initial_tangent: false, ..self.settings };
         let problem = self.problem;
-        let mut x = self.unknowns.clone();
+        let stiffness = problem.laws.iter().flat_map(|(law, _)| law.elastic_stiffness()).fold(0.0, f64::max);
+        let settings = Settings { iterations: ITERATIONS, initial_tangent: false, ..self.settings };
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let mut states = from.to_vec();
-        let mut spent: Vec<Vec<f64>> =
-            form.active().iter().map(|&k| vec![0.0; problem.model.joints[k].coupling.points.len()]).collect();
-        let (mut drag, mut iterations) = (most, 0);
-        let mut why = Unconverged { reason: "the joints do not come to rest".into(), worst: Vec::new(), iterations };
+        let spent = form.active().iter().map(|&k| vec![0.0; from[k].len()]).collect();
+        let (x, states) = (self.unknowns.clone(), from.to_vec());
+        let mut at = Rest { x, states, spent, iterations: 0, pulls: Vec::new() };
+        let mut why = "the joints do not come to rest".to_string();
+        let (mut drag, mut worst) = (stiffness, Vec::new());
         for _ in 0..STEPS {
-            let laws = Dragged { laws: Laws { problem, old: &states }, drag };
-            let step = match newton.solve(form, &laws, &[&x], &target, settings) {
+            if !(LEAST * stiffness..=MOST * stiffness).contains(&drag) {
+                break;
+            }
+            let laws = Dragged { laws: Laws { problem, old: &at.states }, drag };
+            let step = match newton.solve(form, &laws, &[&at.x], &target, settings) {
                 Ok(step) => step,
                 Err(failed) => {
-                    iterations += failed.iterations;
-                    if std::env::var("DBG").is_ok() { eprintln!("fail drag {drag:e} {failed:?}"); }
-                    (drag, why) = (drag * FACTOR, failed);
-                    if drag > MOST * most {
-                        break;
-                    }
+                    at.iterations += failed.iterations;
+                    (why, worst) = (failed.reason, failed.worst);
+                    drag *= FACTOR;
                     continue;
                 }
             };
-            iterations += step.iterations;
-            let (change, carried) = self_change(problem, form.active(), &states, &step.memory);
-            if change > CHANGED * carried {
+            at.iterations += step.iterations;
+            let pulls = at.pulls(problem, form.active(), &step, drag);
+            if at.released(problem, form.active(), &step, &pulls) < 0.0 {
                 drag *= FACTOR;
-                if std::env::var("DBG").is_ok() { eprintln!("far {:e}", change / carried); }
-                if drag > MOST * most {
-                    break;
-                }
                 continue;
             }
-            let mut pulled: Vec<Vec<f64>> = Vec::new();
-            for ((&k, jumps), tractions) in form.active().iter().zip(&step.jumps).zip(&step.tractions) {
-                let old = states[k].iter().flat_map(|state| state.jump.iter().copied().collect::<Vec<f64>>());
-                let drags = jumps.iter().zip(old.chain(std::iter::repeat(f64::NAN)));
-                let own = tractions.iter().zip(drags).map(|(t, (r, r0))| t - if r0.is_nan() { 0.0 } else { drag * (r - r0) });
-                pulled.push(problem.model.joints[k].gather(&own.collect::<Vec<f64>>()));
-            }
-            let residual = form.residual(&step.x, &pulled, &target);
-            let left = form.error(&residual, &step.x, &pulled, &target);
-            for ((&k, memory), spent) in form.active().iter().zip(&step.memory).zip(&mut spent) {
-                for ((state, answer), spent) in states[k].iter_mut().zip(memory).zip(spent) {
-                    *state = answer.state;
-                    *spent += answer.dissipation;
-                }
-            }
-            if std::env::var("DBG").is_ok() {
-                eprintln!("drag {drag:e} left {left:e} iterations {}", step.iterations);
-            }
-            x = step.x;
-            if left <= NEAR {
-                let laws = Laws { problem, old: &states };
-                match newton.solve(form, &laws, &[&x], &target, self.settings) {
-                    Ok(last) => return Ok((last.x, states, spent, iterations + last.iterations)),
-                    Err(failed) => iterations += failed.iterations,
-                }
-            }
+            let own = |((&k, tractions), pulls): ((&usize, &Vec<f64>), &Vec<f64>)| {
+                let own: Vec<f64> = tractions.iter().zip(pulls).map(|(t, pull)| t - pull).collect();
+                problem.model.joints[k].gather(&own)
+            };
+            let forces: Vec<Vec<f64>> = form.active().iter().zip(&step.tractions).zip(&pulls).map(own).collect();
+            let residual = form.residual(&step.x, &forces, &target);
+            let left = form.error(&residual, &step.x, &forces, &target);
             if step.iterations <= EASY {
                 drag /= FACTOR;
             }
-            if drag < LEAST * most {
-                break;
+            at.take(form.active(), step, pulls);
+            if left <= NEAR {
+                let laws = Laws { problem, old: &at.states };
+                match newton.solve(form, &laws, &[&at.x], &target, self.settings) {
+                    Ok(last) => {
+                        at.iterations += last.iterations;
+                        return Ok(Rest { x: last.x, ..at });
+                    }
+                    Err(failed) => at.iterations += failed.iterations,
+                }
             }
         }
-        Err(Failure::Unconverged(Unconverged { iterations, ..why }))
+        Err(Failure::Unconverged(Unconverged { reason: why, worst, iterations: at.iterations }))
     }
 }
 
-fn self_change(problem: &crate::problem::Problem, active: &[usize], states: &[Vec<law::State>], memory: &[Vec<super::state::Answer>]) -> (f64, f64) {
-    let mut c = (0.0, 0.0);
-    for (&k, memory) in active.iter().zip(memory) {
-        for ((p, old), new) in problem.model.joints[k].coupling.points.iter().zip(&states[k]).zip(memory) {
-            c.0 += p.weight * (new.state.traction - old.traction).norm_squared();
-            c.1 += p.weight * old.traction.norm_squared();
-        }
+impl Rest {
+    /// c (r − r₀) of a step.
+    fn pulls(&self, problem: &Problem, active: &[usize], step: &Iterate<Answer>, drag: f64) -> Vec<Vec<f64>> {
+        let of = |(&k, jumps): (&usize, &Vec<f64>)| -> Vec<f64> {
+            let components = problem.model.joints[k].coupling.components;
+            let mut pulls = vec![0.0; jumps.len()];
+            let points = pulls.chunks_exact_mut(components).zip(jumps.chunks_exact(components));
+            for ((pull, r), old) in points.zip(&self.states[k]) {
+                (0..components).for_each(|i| pull[i] = drag * (r[i] - old.jump[i]));
+            }
+            pulls
+        };
+        active.iter().zip(&step.jumps).map(of).collect()
     }
-    c
+
+    /// Energy that a step releases, less what it may seem to take up by rounding [force × length].
+    fn released(
+        &self,
+        problem: &Problem,
+        active: &[usize],
+        step: &Iterate<Answer>,
+        pulls: &[Vec<f64>],
+    ) -> f64 {
+        let mut released = 0.0;
+        for (a, &k) in active.iter().enumerate() {
+            let ((law, _), coupling) = (&problem.laws[k], &problem.model.joints[k].coupling);
+            for (p, (old, new)) in self.states[k].iter().zip(&step.memory[a]).enumerate() {
+                let moved = new.state.jump - old.jump;
+                let at = coupling.components * p;
+                let pull = |i: usize| pulls[a][at + i] + self.pulls.get(a).map_or(pulls[a][at + i], |before| before[at + i]);
+                let gained: f64 = (0..coupling.components).map(|i| 0.5 * pull(i) * moved[i]).sum();
+                let spent = gained - beyond_trapezium(law, old, new) + TAKEN * new.dissipation;
+                released += coupling.points[p].weight * spent;
+            }
+        }
+        problem.model.thickness * released
+    }
+
+    fn take(&mut self, active: &[usize], step: Iterate<Answer>, pulls: Vec<Vec<f64>>) {
+        for ((&k, memory), spent) in active.iter().zip(step.memory).zip(&mut self.spent) {
+            for ((state, answer), spent) in self.states[k].iter_mut().zip(memory).zip(spent) {
+                *state = answer.state;
+                *spent += answer.dissipation;
+            }
+        }
+        (self.x, self.pulls) = (step.x, pulls);
+    }
 }
