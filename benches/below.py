@@ -5,7 +5,7 @@ import argparse
 import json
 from pathlib import Path
 
-from scenes import SIZES, SPRINGS, folder, run
+from scenes import SIZES, SPRINGS, folder, kept_below, run
 
 
 def main():
@@ -17,8 +17,7 @@ def main():
     options = parser.parse_args()
     here = folder(options.program.resolve(), options.size, options.out)
     scene = json.loads((here / "cracking.json").read_text())
-    scene["steps"][0]["load"] = {"upper.top": {"pressure": 0.1}}
-    scene["steps"][1]["displace"] = {f"upper.{side}": {"x": 1e-9} for side in ("left", "right")}
+    scene["steps"] = kept_below(scene["steps"])
     for fields in ("every", "last"):
         scene["output"]["fields"] = fields
         seconds = {}
@@ -31,7 +30,9 @@ def main():
             for name, measured in seconds.items():
                 measured.append(run(options.program.resolve(), here / f"below_{name}.json")["seconds"])
         springs, cracking = (min(measured) for measured in seconds.values())
-        print(f"{options.size}, fields of {fields}: springs {springs:.3f} s, cracking law below its surface {cracking:.3f} s, ratio {cracking / springs:.2f}")
+        print(
+            f"{options.size}, fields of {fields}: springs {springs:.3f} s, cracking law below its surface {cracking:.3f} s, ratio {cracking / springs:.2f}"
+        )
 
 
 if __name__ == "__main__":

@@ -27,6 +27,12 @@ BENDING = {
 PROBES = {"tip": "upper.right.displacement_y", "traction_t": "joint.traction_t@0.5"}
 
 
+def kept_below(steps):
+    """The steps of the shear box at a hundredth of its load: nothing cracks or slips."""
+    displace = {f"upper.{side}": {"x": 1e-9} for side in ("left", "right")}
+    return [steps[0] | {"load": {"upper.top": {"pressure": 0.1}}}, steps[1] | {"displace": displace}]
+
+
 def folder(program, size, out):
     """A folder with the meshes `lower.msh` and `upper.msh` of a size and its scenes."""
     here = out / size
@@ -77,17 +83,20 @@ def run(program, scene, *options):
     return row | {stage: spent.get(stage, 0.0) for stage in STAGES}
 
 
+def processor():
+    """The name of the processor."""
+    info = Path("/proc/cpuinfo")
+    lines = info.read_text().splitlines() if info.exists() else []
+    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return models[0] if models else platform.processor() or platform.machine()
+
+
 def machine():
     """What was measured on, in a line."""
-    cpu = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        models = [line.split(":", 1)[1] for line in info.read_text().splitlines() if line.startswith("model name")]
-        cpu = models[0].strip() if models else cpu
     rustc = subprocess.run(["rustc", "--version"], capture_output=True, text=True).stdout.split()
     load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
     date = time.strftime("%Y-%m-%d")
-    return f"{date}, {cpu}, {os.cpu_count()} cores, load average {load}, rustc {rustc[1] if rustc else '?'}"
+    return f"{date}, {processor()}, {os.cpu_count()} cores, load average {load}, rustc {rustc[1] if rustc else '?'}"
 
 
 def write(path, rows, about):

@@ -7,6 +7,7 @@ import resource
 import shutil
 import statistics
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -15,6 +16,8 @@ import numpy as np
 from trade_scenes import STRIP, mesh
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.append(str(ROOT / "benches"))
+from scenes import SPRINGS, folder, kept_below  # noqa: E402
 
 
 def exponential(a):
@@ -159,39 +162,15 @@ def densities(program, out):
     }
 
 
-SPRINGS = {"type": "elastic", "normal_stiffness": 1.0e7, "tangential_stiffness": 1.0e7}
-EDGES = {"lower": 84, "upper": 56}
-
-
-def box(program, here):
-    """The shear box on meshes that are there."""
-    counts = {"edges": 1, "rows": 2}
-    sets = [
-        f"--set=subdomains.{b}.parameters.{n}={edges // part}"
-        for b, edges in EDGES.items()
-        for n, part in counts.items()
-    ]
-    subprocess.run([program, "mesh", ROOT / "geo/shear_box", "-q", "-o", here, *sets], check=True)
-    for body in EDGES:
-        newest = max((here / "mesh").glob(f"{body}-*.msh"), key=lambda path: path.stat().st_mtime)
-        shutil.copyfile(newest, here / f"{body}.msh")
-    scene = json.loads((ROOT / "geo/shear_box/cracking.json").read_text())
-    scene.pop("$schema")
-    scene["subdomains"] = {body: {"msh": f"{body}.msh", "material": "rock"} for body in EDGES}
-    return scene
-
-
 def features(program, out, repeat=5):
     """Time and memory of the shear box with every feature switched on: runs take turns, the processor's time counts."""
-    here = out / "features"
-    here.mkdir(parents=True, exist_ok=True)
-    scene = box(program, here)
+    here = folder(program, "10k", out / "features")
+    scene = json.loads((here / "cracking.json").read_text())
     cracking = scene["interfaces"]["joint"]["law"]
     coulomb = SPRINGS | {"type": "coulomb", "friction_coefficient": 0.8785}
-    # a hundredth of the load: nothing cracks or slips
-    scene["steps"][0]["load"] = {"upper.top": {"pressure": 0.1}}
-    low = {f"upper.{side}": {"x": 1e-9} for side in ("left", "right")}
     high = scene["steps"][1]["displace"]
+    scene["steps"] = kept_below(scene["steps"])
+    low = scene["steps"][1]["displace"]
     history = scene["output"]["history"]
     few = dict(list(history.items())[:1])
 
