@@ -1,6 +1,8 @@
 #!/bin/sh
 # What midplane needs from the system, beside Rust: gmsh, Python with venv, and a library for off-screen rendering.
 # Missing packages are installed if we may (root on Debian), else one line says which.
+# `tools.sh browser` adds a browser without a window, some 60 MB, in which `make trade` opens its page; nothing fails
+# without it.
 set -eu
 
 packages=""
@@ -23,13 +25,24 @@ if ! command -v cargo >/dev/null; then
     echo "midplane needs Rust: install it from https://rustup.rs" >&2
     exit 1
 fi
+
+may_install() { [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; }
+install() {
+    echo "installing $*"
+    apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "$@"
+}
+finds_browser() { python3 pipeline/trade_check.py --find; }
+
+if [ "${1:-}" = browser ] && ! finds_browser >/dev/null; then
+    if ! may_install || ! install chromium-headless-shell; then
+        echo "no chromium or chrome, and none could be installed: the page of make trade will not be opened" >&2
+    fi
+fi
 [ -n "$packages" ] || exit 0
 
-if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
-    echo "installing$packages"
-    apt-get update -q
+if may_install; then
     # shellcheck disable=SC2086
-    DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $packages
+    install $packages
 elif [ "$packages" != " libosmesa6" ]; then
     echo "midplane needs more programs. On Debian: apt-get install$packages" >&2
     exit 1

@@ -1,6 +1,6 @@
 """Open the trade page in a headless browser: every figure is drawn, tables sort, nothing complains; keep a screenshot.
 
-Without chromium or chrome it says so in one line and does nothing."""
+Without chromium or chrome it says so and checks nothing; `pipeline/tools.sh browser` installs one where apt can."""
 
 import argparse
 import re
@@ -46,11 +46,15 @@ def run(browser, page, *options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("page", type=Path, help="results/trade/trade.html")
+    parser.add_argument("page", type=Path, nargs="?", default=Path("results/trade/trade.html"))
+    parser.add_argument("--find", action="store_true", help="only tell which browser there is")
     options = parser.parse_args()
     browser = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+    if options.find:
+        print(browser or "none")
+        sys.exit(0 if browser else 1)
     if browser is None:
-        print("no chromium or chrome: the page is not opened")
+        print(f"NOT CHECKED: no chromium or chrome here, so {options.page} was not opened", file=sys.stderr)
         return
     text = options.page.read_text()
     outside = re.findall(r'<(?:script|link|img|iframe)[^>]* (?:src|href)="(https?://[^"]+)"', text)
