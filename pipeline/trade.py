@@ -1,11 +1,14 @@
 """Measure speed against accuracy: the campaign behind `make trade`, written to results/trade/trade.json.
 
 Every scene is run around a reference setting one knob at a time, at a Latin hypercube over all knobs, at all combinations
-of the two knobs that move its front, and with the presets; the points of the front are repeated. Every run is a process
-of its own on one thread; its time is the processor's for the whole process, without the mesher, which does not count what
-others on the machine make it wait. What fails counts as infinitely wrong. `midplane study` does the runs, so an interrupted campaign goes on where it was."""
+of the two knobs that move its front, and with the presets; points on the front or near it are repeated, all in turn, round
+after round. Every run is a process of its own on one thread; its time is the processor's for the whole process, without
+the mesher, which does not count what others on the machine make it wait, and of the repeats the fastest counts: a slower
+one has shared its caches with others. What fails counts as infinitely wrong. `midplane study` does the runs, so an interrupted
+campaign goes on where it was."""
 
 import argparse
+import csv
 import json
 import os
 import random
@@ -15,20 +18,22 @@ import subprocess
 import time
 from pathlib import Path
 
+from trade_compare import repeatability, together
 from trade_extras import densities, features, penalty
-from trade_front import front, known
-from trade_machine import machine
+from trade_front import candidates, front, known, label, tie
+from trade_machine import machine, mesher
+from trade_robust import robustness
 from trade_scenes import SCENES, knobs, reference, settings
 
 ROOT = Path(__file__).resolve().parent.parent
 PRESETS = ("draft", "normal", "fine")
-# points of the hypercube, repeats of the front, scenes
+# points of the hypercube, rounds of the front in each of two measurements, scenes
 FORMS = {
     "reduced": (4, 5, ("strip", "cook", "friction", "ring")),
     "usual": (16, 5, tuple(SCENES)),
     "full": (64, 7, tuple(SCENES)),
 }
-# a density and an element at most for the reduced form
+# the largest density of the reduced form
 SMALL = 1
 
 
@@ -38,17 +43,18 @@ class Campaign:
     def __init__(self, program, scene, out, form):
         self.program, self.scene, self.form = program, scene, form
         self.out = out / scene.name
-        self.points = []
+        self.gmsh = mesher(out)
+        self.points, self.measured = [], {}
 
-    def study(self, phase, labelled, repeat=1):
-        """Runs settings {label: settings} as one study, and returns its points as rows."""
+    def study(self, phase, labelled, measures=None, repeat=1):
+        """Runs (labels, settings) as one study, and returns its points as rows."""
         folder = self.out / phase
         folder.mkdir(parents=True, exist_ok=True)
         study = {
             "title": f"{self.scene.case}: {phase}",
             "scene": os.path.relpath(ROOT / self.scene.folder / "scene.json", folder),
             "axes": {"setting": {"values": [value for _, value in labelled]}},
-            "measures": self.scene.measures,
+            "measures": self.scene.measures if measures is None else measures,
             "repeat": repeat,
             "process": "own",
         }
@@ -59,12 +65,14 @@ class Campaign:
         link.parent.mkdir(exist_ok=True)
         if not link.exists():
             link.symlink_to(meshes.resolve())
-        command = [self.program, "study", folder / "study.json", "-o", folder / "out", "--threads", "1", "-q"]
-        subprocess.run(command, check=True)
+        options = ["-o", folder / "out", "--threads", "1", "-q", "--gmsh", self.gmsh]
+        subprocess.run([self.program, "study", folder / "study.json", *options], check=True)
         done = json.loads((folder / "out" / "study.json").read_text())
-        rows = [self.row(phase, labels, point) for (labels, _), point in zip(labelled, done["points"])]
-        shutil.copyfile(folder / "out" / "study.csv", self.out / f"{phase}.csv")
-        return rows
+        return [self.row(phase, labels, point) for (labels, _), point in zip(labelled, done["points"])]
+
+    def keep(self, phase):
+        """Its table beside the campaign's own."""
+        shutil.copyfile(self.out / phase / "out" / "study.csv", self.out / f"{phase}.csv")
 
     def row(self, phase, labels, point):
         """What the campaign keeps of a point."""
@@ -72,17 +80,17 @@ class Campaign:
         wall = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"])]
         run = point["processor"] or wall
         errors = point["errors"]
-        deciding = [errors[name] for name in self.scene.errors]
+        deciding = [errors[name] for name in self.scene.errors if name in errors]
         failed = point["status"] != "done" or any(error is None for error in deciding)
         return {
             "phase": phase,
             "labels": labels,
             "status": point["status"],
             "message": point["message"],
-            "error": None if failed else max(deciding),
+            "error": None if failed else max(deciding, default=0.0),
             "errors": errors,
             "values": point["values"],
-            "time": statistics.median(run),
+            "time": min(run),
             "times": run,
             "wall": statistics.median(wall),
             "whole": point["seconds"],
@@ -95,12 +103,20 @@ class Campaign:
             for name in ("dofs", "iterations", "increments", "halved", "factor_entries", "stiffness_number")
         }
 
-    def add(self, rows):
-        self.points += rows
-        return rows
-
     def labelled(self, labels):
         return labels, settings(self.scene, labels)
+
+    def measure(self, phase, chosen):
+        """Runs settings by their labels; what an earlier phase has measured is not run again."""
+        keys = [json.dumps(settings(self.scene, labels)) for labels in chosen]
+        fresh = {key: labels for key, labels in zip(keys, chosen) if key not in self.measured}
+        if fresh:
+            rows = self.study(phase, [self.labelled(labels) for labels in fresh.values()])
+            self.keep(phase)
+            self.measured |= dict(zip(fresh, rows))
+        rows = [self.measured[key] | {"phase": phase, "labels": labels} for key, labels in zip(keys, chosen)]
+        self.points += rows
+        return rows
 
     def table(self):
         table = knobs(self.scene)
@@ -119,7 +135,7 @@ class Campaign:
                 if setting not in seen:
                     seen.append(setting)
                     chosen.append({name: label})
-        rows = self.add(self.study("sweep", [self.labelled(labels) for labels in chosen]))
+        rows = self.measure("sweep", chosen)
         spans = {}
         for name in table:
             errors = [
@@ -141,23 +157,29 @@ class Campaign:
             columns[name] = [labels[int((k + draw.random()) / count * len(labels))] for k in strata]
         usual = reference(self.scene)
         chosen = [{name: c[k] for name, c in columns.items() if c[k] != usual[name]} for k in range(count)]
-        return self.add(self.study("hypercube", [self.labelled(labels) for labels in chosen]))
+        return self.measure("hypercube", chosen)
 
     def factorial(self, phase, names):
         """All combinations of two knobs."""
         a, b = names
         table = self.table()
-        chosen = [{a: x, b: y} for x in table[a] for y in table[b]]
-        return self.add(self.study(phase, [self.labelled(labels) for labels in chosen]))
+        return self.measure(phase, [{a: x, b: y} for x in table[a] for y in table[b]])
 
     def presets(self, repeat):
         """The scene as its files have it, with every preset."""
         labelled = [({"accuracy": name}, self.scene.settings | {"accuracy": name}) for name in PRESETS]
-        return self.study("presets", labelled, repeat)
+        rows = self.study("presets", labelled, repeat=repeat)
+        self.keep("presets")
+        return rows
 
-    def repeats(self, phase, chosen, repeat):
-        """The points of the front again."""
-        return self.study(phase, [self.labelled(row["labels"]) for row in chosen], repeat)
+    def repeats(self, half, chosen, rounds):
+        """Points again, all in turn, round after round."""
+        labelled = [self.labelled(row["labels"]) for row in chosen]
+        rows = [row | {"times": []} for row in chosen]
+        for k in range(rounds):
+            again = self.study(f"repeats/{half} {k}", labelled)
+            rows = [together(a, b) if a["times"] else b for a, b in zip(rows, again)]
+        return rows
 
 
 def write_whole(path, text):
@@ -166,33 +188,31 @@ def write_whole(path, text):
     aside.replace(path)
 
 
-def run_scene(program, scene, out, form):
+def run_scene(program, scene, out, form, robust):
     """All phases of a scene."""
-    count, repeat, _ = FORMS[form]
+    count, rounds, _ = FORMS[form]
     campaign = Campaign(program, scene, out, form)
     start = time.monotonic()
     spans = campaign.sweep()
     campaign.hypercube(count)
     knob_pair = ["density", "element"]
-    candidates = {name: span for name, span in spans.items() if name not in knob_pair}
     movers = sorted(spans, key=spans.get, reverse=True)[:2]
     campaign.factorial("factorial", knob_pair)
     if set(movers) != set(knob_pair) and form != "reduced":
         campaign.factorial("factorial of the two that move most", movers)
-    first = front(campaign.points, scene.floor)
-    # the same front measured twice, one after the other
-    halves = [campaign.repeats(phase, first, repeat) for phase in ("repeats", "repeats again")]
-    times = {}
-    for row in halves[0] + halves[1]:
-        times.setdefault(tuple(row["settings"]), []).extend(row["times"])
+    near = candidates(campaign.points, scene.floor)
+    # measured twice, one after the other
+    halves = [campaign.repeats(half, near, rounds) for half in ("first", "second")]
+    pooled = [together(a, b) for a, b in zip(*halves)]
+    repeats_csv(campaign.out / "repeats.csv", halves)
+    times = {tuple(row["settings"]): row["time"] for row in pooled}
     for row in campaign.points:
-        if tuple(row["settings"]) in times:
-            row["time"] = statistics.median(times[tuple(row["settings"])])
-    presets = campaign.presets(repeat)
-    print(
-        f"{scene.name:10} {len(campaign.points)} points, front of {len(first)}, {time.monotonic() - start:.0f} s",
-        flush=True,
-    )
+        row["time"] = times.get(tuple(row["settings"]), row["time"])
+    chosen = front(pooled, scene.floor, statistics.median(tie(row) for row in pooled))
+    presets = campaign.presets(rounds)
+    more = {"robust": robustness(campaign, chosen)} if robust else {}
+    counts = f"{len(campaign.points)} points, {len(near)} near the front, {len(chosen)} on it"
+    print(f"{scene.name:10} {counts}, {time.monotonic() - start:.0f} s", flush=True)
     return {
         "case": scene.case,
         "folder": scene.folder,
@@ -201,23 +221,20 @@ def run_scene(program, scene, out, form):
         "nonlinear": scene.nonlinear,
         "exact": scene.measures[scene.errors[0]].get("reference"),
         "reference": reference(scene),
-        "spans": spans,
-        "movers": movers,
-        "other": max(candidates, key=candidates.get) if candidates else None,
         "points": campaign.points,
-        "front": front(halves[0], scene.floor),
-        "front_again": front(halves[1], scene.floor),
+        "front": chosen,
         "repeated": halves,
+        "repeatability": repeatability(chosen, halves, pooled, scene.floor),
         "presets": presets,
         "curves": curves(scene, campaign),
-    }
+    } | more
 
 
 def curves(scene, campaign):
     """Histories of the densities of the sweep."""
     result = []
     for title, x, y in scene.plotted:
-        for row, k in zip(campaign.points, range(10**6)):
+        for k, row in enumerate(campaign.points):
             if row["phase"] != "sweep" or list(row["labels"]) not in (["density"], ["increments"]):
                 continue
             file = campaign.out / "sweep" / "out" / "points" / f"{k:04}" / "history.csv"
@@ -227,33 +244,14 @@ def curves(scene, campaign):
     return result
 
 
-def same(front, other, spread):
-    """Whether every point of a front is on the other or beaten there by less than the spread."""
-
-    def beaten(row):
-        return not any(r["error"] <= row["error"] and r["time"] <= (1 + spread) * row["time"] for r in other)
-
-    return not any(beaten(row) for row in front)
-
-
-def repeatability(scenes):
-    """How far the two measurements of every front agree."""
-    rows = {}
-    for name, scene in scenes.items():
-        ratios, spreads = [], []
-        for a, b in zip(*scene["repeated"]):
-            ratios.append(max(a["time"], b["time"]) / min(a["time"], b["time"]))
-            spreads.append(max((max(r["times"]) - min(r["times"])) / r["time"] for r in (a, b)))
-        spread = statistics.median(spreads)
-        a, b = scene["front"], scene["front_again"]
-        rows[name] = {
-            "points": len(ratios),
-            "same_front": same(a, b, spread) and same(b, a, spread),
-            "largest_ratio": max(ratios),
-            "median_spread": spread,
-            "within_spread": sum(ratio - 1 <= spread for ratio, spread in zip(ratios, spreads)),
-        }
-    return rows
+def repeats_csv(path, halves):
+    """The times of all repeats, a row a point and measurement."""
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["setting", "error", "measurement", "seconds"])
+        for rows in zip(*halves):
+            for half, row in zip(("first", "second"), rows):
+                table.writerow([label(row), row["error"], half, *(f"{t:.6g}" for t in row["times"])])
 
 
 def main():
@@ -262,6 +260,9 @@ def main():
     parser.add_argument("-o", "--out", type=Path, default=Path("results/trade"))
     parser.add_argument("--form", choices=FORMS, default="usual")
     parser.add_argument("--scenes", nargs="+", choices=SCENES)
+    parser.add_argument(
+        "--robust", action="store_true", help="move nodes, turn the scenes, count instructions, as the full form does"
+    )
     parser.add_argument("--fresh", action="store_true", help="forget what an earlier campaign has measured")
     options = parser.parse_args()
     program = options.program.resolve()
@@ -271,7 +272,13 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     start, before = time.monotonic(), os.getloadavg()
     chosen = options.scenes or FORMS[options.form][2]
-    scenes = {name: run_scene(program, SCENES[name], out, options.form) for name in chosen}
+    full = options.form == "full"
+    earlier = json.loads((out / "trade.json").read_text())["minutes"] if (out / "trade.json").is_file() else 0.0
+    cores = os.sched_getaffinity(0)
+    if full:
+        os.sched_setaffinity(0, {max(cores)})
+    scenes = {name: run_scene(program, SCENES[name], out, options.form, full or options.robust) for name in chosen}
+    os.sched_setaffinity(0, cores)
     extras = {"penalty": penalty(program, out, options.form)}
     if options.form != "reduced":
         extras |= {"densities": densities(program, out), "features": features(program, out)}
@@ -280,8 +287,7 @@ def main():
         "form": options.form,
         "load_before": before,
         "load_after": os.getloadavg(),
-        "minutes": (time.monotonic() - start) / 60,
-        "repeatability": repeatability(scenes),
+        "minutes": earlier + (time.monotonic() - start) / 60,
         "scenes": scenes,
     } | extras
     write_whole(out / "trade.json", json.dumps(result, indent=1))

@@ -13,11 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
+from trade_machine import mesher
 from trade_scenes import STRIP, mesh
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "benches"))
-from scenes import SPRINGS, folder, kept_below  # noqa: E402
+from scenes import SPRINGS, folder as box, kept_below  # noqa: E402
 
 
 def exponential(a):
@@ -106,7 +107,7 @@ def penalty(program, out, form):
             "repeat": 3,
         }
         for (element, name, coupling), point in zip(
-            labels, study(program, folder, content, "--threads", "1")["points"]
+            labels, study(program, folder, content, "--threads", "1", "--gmsh", mesher(out))["points"]
         ):
             times = point["processor"]
             rows.append(
@@ -164,7 +165,7 @@ def densities(program, out):
 
 def features(program, out, repeat=5):
     """Time and memory of the shear box with every feature switched on: runs take turns, the processor's time counts."""
-    here = folder(program, "10k", out / "features")
+    here = box(program, "10k", out / "features")
     scene = json.loads((here / "cracking.json").read_text())
     cracking = scene["interfaces"]["joint"]["law"]
     coulomb = SPRINGS | {"type": "coulomb", "friction_coefficient": 0.8785}

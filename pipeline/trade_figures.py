@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
+from matplotlib.ticker import LogLocator, NullFormatter
 from plotly.subplots import make_subplots
 
 from trade_front import FLOOR, error_of, label
@@ -18,7 +19,7 @@ PHASES = {
     "factorial of the two that move most": "#aa3377",
 }
 ANSWERED = ("tolerance", "increments", "density")
-FRONT, FAILED = "#228833", "#cc3311"
+FRONT, FAILED, PRESET = "#228833", "#cc3311", "#ee6677"
 LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
 
 
@@ -38,67 +39,65 @@ def top_of(scene):
     return 4 * max(known, default=1.0)
 
 
+def shown(row, floor=0.0):
+    """Where the error of a point is drawn."""
+    return max(error_of(row, floor), 1e-12)
+
+
+def against_time(rows, **options):
+    """A trace of plotly: error against time, with the setting of every point."""
+    places = {"x": [row["time"] for row in rows], "y": [shown(row) for row in rows], "mode": "markers"}
+    return places | {"hovertext": [hover(row) for row in rows], "hoverinfo": "text"} | options
+
+
+def split(rows):
+    """Those that are done and those that failed."""
+    return [row for row in rows if row["error"] is not None], [row for row in rows if row["error"] is None]
+
+
+def time_and_error(figure, title):
+    time = log_axis("time [s]") | {"dtick": "D2"}
+    figure.update_layout(title=title, xaxis=time, yaxis=log_axis("relative error"), **LAYOUT)
+
+
 def front_figure(scene):
     """Error against time, every point labelled, the front as a line, failed points at the top."""
     figure = go.Figure()
+    known, failed = split(scene["points"])
     for phase, colour in PHASES.items():
-        rows = [row for row in scene["points"] if row["phase"] == phase and row["error"] is not None]
+        rows = [row for row in known if row["phase"] == phase]
+        marker = {"size": 8, "color": colour, "line": {"width": 0.5, "color": "#333"}}
         if rows:
-            figure.add_scatter(
-                x=[row["time"] for row in rows],
-                y=[max(row["error"], 1e-12) for row in rows],
-                mode="markers",
-                name=phase,
-                text=[hover(row) for row in rows],
-                hoverinfo="text",
-                marker={"size": 8, "color": colour, "line": {"width": 0.5, "color": "#333"}},
-            )
+            figure.add_scatter(**against_time(rows, name=phase, marker=marker))
     rows = scene["front"]
+    later = [max(row["times"]) - row["time"] for row in rows]
     figure.add_scatter(
-        x=[row["time"] for row in rows],
-        y=[error_of(row, scene["floor"]) for row in rows],
-        mode="lines+markers+text",
-        name="front, repeated",
-        text=[label(row) for row in rows],
-        textposition="middle right",
-        textfont={"size": 10, "color": FRONT},
-        hovertext=[hover(row) for row in rows],
-        hoverinfo="text",
-        line={"color": FRONT, "shape": "vh"},
-        marker={"size": 10, "symbol": "diamond"},
-        error_x={
-            "type": "data",
-            "symmetric": False,
-            "array": [max(row["times"]) - row["time"] for row in rows],
-            "arrayminus": [row["time"] - min(row["times"]) for row in rows],
-        },
-    )
-    presets = [row for row in scene["presets"] if row["error"] is not None]
-    figure.add_scatter(
-        x=[row["time"] for row in presets],
-        y=[max(row["error"], 1e-12) for row in presets],
-        mode="markers+text",
-        name="presets",
-        text=[row["labels"]["accuracy"] for row in presets],
-        textposition="top right",
-        marker={"size": 11, "symbol": "star", "color": "#ee6677"},
-    )
-    failed = [row for row in scene["points"] if row["error"] is None]
-    if failed:
-        figure.add_scatter(
-            x=[row["time"] for row in failed],
-            y=[top_of(scene)] * len(failed),
-            mode="markers",
-            name="failed",
-            text=[hover(row) for row in failed],
-            hoverinfo="text",
-            marker={"size": 9, "symbol": "x", "color": FAILED},
+        **against_time(
+            rows,
+            y=[shown(row, scene["floor"]) for row in rows],
+            mode="lines+markers+text",
+            name="front, repeated",
+            text=[label(row) for row in rows],
+            textposition="bottom right",
+            textfont={"size": 10, "color": FRONT},
+            # an error holds from its time on
+            line={"color": FRONT, "shape": "hv"},
+            marker={"size": 10, "symbol": "diamond"},
+            error_x={"type": "data", "symmetric": False, "array": later, "arrayminus": [0.0] * len(rows)},
         )
+    )
+    presets = split(scene["presets"])[0]
+    names = [row["labels"]["accuracy"] for row in presets]
+    star = {"size": 11, "symbol": "star", "color": PRESET}
+    figure.add_scatter(
+        **against_time(presets, mode="markers+text", name="presets", text=names, textposition="top right", marker=star)
+    )
+    if failed:
+        cross = {"size": 9, "symbol": "x", "color": FAILED}
+        figure.add_scatter(**against_time(failed, y=[top_of(scene)] * len(failed), name="failed", marker=cross))
     if scene["floor"]:
         figure.add_hrect(y0=1e-13, y1=FLOOR * scene["floor"], fillcolor="#ddd", opacity=0.5, line_width=0)
-    figure.update_layout(
-        title="Error against time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT
-    )
+    time_and_error(figure, "Error against time")
     lowest = min([error_of(row, scene["floor"]) for row in scene["points"]] + [1.0])
     figure.update_yaxes(range=[math.log10(max(lowest, 1e-12)) - 0.5, math.log10(top_of(scene)) + 0.3])
     return figure
@@ -107,23 +106,12 @@ def front_figure(scene):
 def knob_figure(scene):
     """Error against time of the sweep, a line a knob."""
     figure = go.Figure()
-    sweep = [row for row in scene["points"] if row["phase"] == "sweep" and row["error"] is not None]
+    sweep = [row for row in split(scene["points"])[0] if row["phase"] == "sweep"]
     for name in dict.fromkeys(n for row in sweep for n in row["labels"]):
         rows = [row for row in sweep if name in row["labels"]]
-        figure.add_scatter(
-            x=[row["time"] for row in rows],
-            y=[max(row["error"], 1e-12) for row in rows],
-            mode="lines+markers+text",
-            name=name,
-            text=[row["labels"][name] for row in rows],
-            textposition="top center",
-            textfont={"size": 10},
-            hovertext=[hover(row) for row in rows],
-            hoverinfo="text",
-        )
-    figure.update_layout(
-        title="One knob at a time", xaxis=log_axis("time [s]"), yaxis=log_axis("relative error"), **LAYOUT
-    )
+        text = {"text": [row["labels"][name] for row in rows], "textposition": "top center", "textfont": {"size": 10}}
+        figure.add_scatter(**against_time(rows, mode="lines+markers+text", name=name, **text))
+    time_and_error(figure, "One knob at a time")
     return figure
 
 
@@ -197,50 +185,27 @@ def save_fronts(scenes, path):
     """All fronts in one picture, for the README."""
     figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.6), squeeze=False)
     for axis, (name, scene) in zip(axes[0], scenes.items()):
-        known = [row for row in scene["points"] if row["error"] is not None]
-        failed = [row for row in scene["points"] if row["error"] is None]
-        axis.loglog(
-            [r["time"] for r in known],
-            [max(r["error"], 1e-12) for r in known],
-            ".",
-            color="#99b",
-            ms=4,
-            label="all points",
-        )
-        front = scene["front"]
-        axis.loglog(
-            [r["time"] for r in front],
-            [error_of(r, scene["floor"]) for r in front],
-            "-D",
-            color=FRONT,
-            ms=4,
-            lw=1.2,
-            label="front",
-        )
-        presets = [r for r in scene["presets"] if r["error"] is not None]
-        axis.loglog(
-            [r["time"] for r in presets],
-            [max(r["error"], 1e-12) for r in presets],
-            "*",
-            color="#ee6677",
-            ms=9,
-            label="presets",
-        )
+
+        def draw(rows, style, at=shown, **options):
+            axis.loglog([row["time"] for row in rows], [at(row) for row in rows], style, **options)
+
+        known, failed = split(scene["points"])
+        presets = split(scene["presets"])[0]
+        draw(known, ".", color="#99b", ms=4, label="all points")
+        level = lambda row: shown(row, scene["floor"])
+        draw(scene["front"], "-D", level, color=FRONT, ms=4, lw=1.2, drawstyle="steps-post", label="front")
+        draw(presets, "*", color=PRESET, ms=9, label="presets")
         for row in presets:
-            axis.annotate(
-                row["labels"]["accuracy"],
-                (row["time"], max(row["error"], 1e-12)),
-                fontsize=7,
-                xytext=(4, 3),
-                textcoords="offset points",
-            )
+            place = {"xytext": (4, 3), "textcoords": "offset points", "fontsize": 7}
+            axis.annotate(row["labels"]["accuracy"], (row["time"], shown(row)), **place)
         if failed:
-            axis.loglog(
-                [r["time"] for r in failed], [top_of(scene)] * len(failed), "x", color=FAILED, ms=5, label="failed"
-            )
+            draw(failed, "x", lambda _: top_of(scene), color=FAILED, ms=5, label="failed")
         axis.set_title(f"{name}: {scene['case'].split(':')[0]}", fontsize=9)
         axis.set_xlabel("time [s]", fontsize=8)
         axis.tick_params(labelsize=7)
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="major", alpha=0.3)
     axes[0][0].set_ylabel("relative error", fontsize=8)
     axes[0][0].legend(fontsize=7, loc="lower left")

@@ -1,11 +1,20 @@
-"""Which points of a campaign are on its Pareto front, and what they mean for who needs so many digits."""
+"""Which points of a campaign are on its Pareto front, and what they mean for who needs so many digits.
+
+A time is not known better than its repeats tell. Points that are closer than their middle is to the fastest are a tie, of
+which the more accurate is on the front; and two measurements agree at an error if the times they take to reach it differ by
+no more than the spread."""
 
 import csv
 import math
+import statistics
 
 TARGETS = (0.1, 0.01, 0.001, 0.0001)
 # errors within so many uncertainties of the reference say nothing
 FLOOR = 3.0
+# errors that differ by less are the same, relative
+SAME = 0.01
+# what a single run may be slower than the fastest of several, relative: so near the front it is run again
+MARGIN = 0.3
 
 
 def error_of(row, floor):
@@ -13,16 +22,42 @@ def error_of(row, floor):
     return math.inf if row["error"] is None else max(row["error"], FLOOR * floor)
 
 
-def front(rows, floor):
-    """The rows that no faster row equals or beats, from fast to slow."""
-    best, chosen, seen = math.inf, [], set()
-    for row in sorted(rows, key=lambda row: (row["time"], error_of(row, floor))):
-        error = error_of(row, floor)
-        key = tuple(row["settings"])
-        if error < best and key not in seen:
-            best = error
-            seen.add(key)
-            chosen.append(row)
+def spread(row):
+    """(slowest - fastest) / median of the repeats of a point."""
+    return (max(row["times"]) - min(row["times"])) / statistics.median(row["times"])
+
+
+def tie(row):
+    """How far the middle of the repeats of a point is above the fastest."""
+    return statistics.median(row["times"]) / min(row["times"]) - 1
+
+
+def once(rows):
+    """The rows without those of the same settings."""
+    return list({tuple(row["settings"]): row for row in reversed(rows)}.values())[::-1]
+
+
+def candidates(rows, floor):
+    """The rows that may be on the front once they are repeated: none as accurate is faster by more than the margin."""
+    rows = [row for row in once(rows) if row["error"] is not None]
+
+    def beaten(row):
+        good = (other for other in rows if error_of(other, floor) <= error_of(row, floor))
+        return any(other["time"] * (1 + MARGIN) < row["time"] for other in good)
+
+    return sorted((row for row in rows if not beaten(row)), key=lambda row: row["time"])
+
+
+def front(rows, floor, tied):
+    """The way from fast to accurate: the fastest row that is more accurate than the last one, or the best of its ties."""
+    chosen, left = [], [row for row in once(rows) if row["error"] is not None]
+    while left:
+        fastest = min(row["time"] for row in left)
+        ties = [row for row in left if row["time"] <= (1 + tied) * fastest]
+        least = (1 + SAME) * min(error_of(row, floor) for row in ties)
+        best = min((row for row in ties if error_of(row, floor) <= least), key=lambda row: row["time"])
+        chosen.append(best)
+        left = [row for row in left if (1 + SAME) * error_of(row, floor) < error_of(best, floor)]
     return chosen
 
 

@@ -10,9 +10,10 @@ body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; mar
 h1 { font-size: 1.6em } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc }
 table { border-collapse: collapse; margin: 1em 0; font-size: 13px; font-variant-numeric: tabular-nums }
 th, td { padding: 3px 9px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-th { background: #f2f4f7; cursor: pointer; white-space: nowrap } th:first-child, td:first-child { text-align: left }
-th::after { content: " \\2195"; color: #aaa } tr.front td { background: #eaf4ea } tr.failed td { color: #a33 }
-.figure { width: 100%; height: 560px } .scroll { max-height: 420px; overflow: auto } .note { color: #555 }
+th { background: #f2f4f7; cursor: pointer; vertical-align: bottom } .text { text-align: left }
+th::after { content: "\\00a0\\2195"; color: #aaa } tr.front td { background: #eaf4ea } tr.failed td { color: #a33 }
+.figure { width: 100%; height: 560px } .wide { overflow-x: auto } .scroll { max-height: 420px; overflow: auto }
+.scroll td, .scroll th { white-space: nowrap } .note { color: #555 }
 @media print { .scroll { max-height: none; overflow: visible } h2 { break-before: page } th::after { content: "" } }
 """
 
@@ -38,10 +39,6 @@ document.body.dataset.ready = 'yes';
 """
 
 
-def number(value, digits=3):
-    return "" if value is None else f"{value:.{digits}g}"
-
-
 class Page:
     """HTML in the making."""
 
@@ -65,16 +62,18 @@ class Page:
         )
 
     def table(self, head, rows, classes=(), scroll=False):
-        """Cells are texts, or (text, number to sort by)."""
-        lines = ["<div class='scroll'>" if scroll else "<div>", "<table><thead><tr>"]
-        lines += [f"<th>{html.escape(cell)}</th>" for cell in head] + ["</tr></thead><tbody>"]
+        """Cells are texts, to the left, or (text, number to sort by)."""
+        texts = [isinstance(cell, str) for cell in rows[0]] if rows else [True] * len(head)
+        kinds = [" class='text'" if text else "" for text in texts]
+        lines = [f"<div class='{'scroll' if scroll else 'wide'}'><table><thead><tr>"]
+        lines += [f"<th{kind}>{html.escape(cell)}</th>" for cell, kind in zip(head, kinds)] + ["</tr></thead><tbody>"]
         for k, row in enumerate(rows):
             lines.append(f"<tr class='{classes[k] if classes else ''}'>")
-            for cell in row:
+            for cell, kind in zip(row, kinds):
                 text, value = cell if isinstance(cell, tuple) else (cell, None)
                 known = value is not None and math.isfinite(value)
                 data = f' data-value="{value!r}"' if known else ' data-value=""' if isinstance(cell, tuple) else ""
-                lines.append(f"<td{data}>{html.escape(str(text))}</td>")
+                lines.append(f"<td{kind}{data}>{html.escape(str(text))}</td>")
             lines.append("</tr>")
         self.add("".join(lines + ["</tbody></table></div>"]))
 
@@ -82,7 +81,3 @@ class Page:
         head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{html.escape(self.title)}</title>"
         head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"
         path.write_text(head + "\n".join(self.parts) + f"<script>{SCRIPT}</script></body></html>")
-
-
-def cell(value, digits=3):
-    return (number(value, digits), math.inf if value is None else float(value))
