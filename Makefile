@@ -93,6 +93,9 @@ $(VENV): pipeline/requirements.txt | tools
 tools:            ## install what is missing on the system, or say what it is
 	@pipeline/tools.sh
 
+browser:          # for the page of `make trade`, if it can be had
+	@pipeline/tools.sh browser
+
 build: $(MIDPLANE)  ## the program only, target/release/midplane
 
 test: | tools     ## all tests, in release, so that dependencies compile once
@@ -133,21 +136,29 @@ bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/
 	python3 benches/table.py docs/BENCH.md $(BENCHED)
 	mkdir -p docs/bench && cp $(BENCHED) docs/bench/
 
-TRADE := $(addprefix pipeline/trade_,scenes.py front.py extras.py machine.py)
+TRADE := $(wildcard pipeline/trade_*.py)
 
 trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, 40 minutes: results/trade/trade.html
 
-results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE
+results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE | browser
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade
 	cargo bench --locked --bench elastic > results/trade/elastic.txt
 	cargo bench --locked --bench precision > results/trade/precision.txt
 	$(PYTHON) pipeline/trade_page.py results/trade/trade.json
 	$(PYTHON) pipeline/trade_check.py $@
 
-trade-full:       ## the same with 64 points of the hypercube and 7 repeats
+# and with every point of the front on moved nodes, turned, and under a counter of instructions
+trade-full:       ## the same with 64 points of the hypercube, 7 repeats and checks of the front, hours
 	$(MAKE) trade FULL=1
 
-trade-quick: $(MIDPLANE) $(VENV)  ## the same on four scenes with coarse meshes, in 3 minutes
+trade-robust: $(MIDPLANE) $(VENV)  ## these checks for the fronts that `make trade` has measured
+	$(PYTHON) pipeline/trade.py $(MIDPLANE) --robust -o results/trade
+	$(PYTHON) pipeline/trade_page.py results/trade/trade.json
+
+trade-compare:    ## whether the fronts of two campaigns agree: make trade-compare with=<an earlier trade.json>
+	python3 pipeline/trade_compare.py results/trade/trade.json $(with)
+
+trade-quick: $(MIDPLANE) $(VENV) | browser  ## the same on four scenes with coarse meshes, in 3 minutes
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh --form reduced -o results/trade-quick
 	$(PYTHON) pipeline/trade_page.py results/trade-quick/trade.json
 	$(PYTHON) pipeline/trade_check.py results/trade-quick/trade.html
@@ -195,4 +206,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools build test extremes extremes-quick trade trade-full trade-quick trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test extremes extremes-quick trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
