@@ -20,7 +20,8 @@ from pathlib import Path
 
 from trade_compare import repeatability, together
 from trade_extras import densities, features, penalty
-from trade_front import candidates, front, known, label, tie
+from trade_front import MARGINS, candidates, front, label, tie
+from trade_history import curves
 from trade_machine import machine, mesher
 from trade_robust import robustness
 from trade_scenes import SCENES, knobs, reference, settings
@@ -173,12 +174,15 @@ class Campaign:
         return rows
 
     def repeats(self, half, chosen, rounds):
-        """Points again, all in turn, round after round."""
+        """Points again, all in turn, round after round; the campaign keeps their fastest times."""
         labelled = [self.labelled(row["labels"]) for row in chosen]
         rows = [row | {"times": []} for row in chosen]
         for k in range(rounds):
             again = self.study(f"repeats/{half} {k}", labelled)
             rows = [together(a, b) if a["times"] else b for a, b in zip(rows, again)]
+        times = {tuple(row["settings"]): row["time"] for row in rows}
+        for row in self.points:
+            row["time"] = min(row["time"], times.get(tuple(row["settings"]), row["time"]))
         return rows
 
 
@@ -200,14 +204,13 @@ def run_scene(program, scene, out, form, robust):
     campaign.factorial("factorial", knob_pair)
     if set(movers) != set(knob_pair) and form != "reduced":
         campaign.factorial("factorial of the two that move most", movers)
-    near = candidates(campaign.points, scene.floor)
+    # a single run may have been cold, or disturbed
+    campaign.repeats("again", candidates(campaign.points, scene.floor, MARGINS[0]), 1)
+    near = candidates(campaign.points, scene.floor, MARGINS[1])
     # measured twice, one after the other
     halves = [campaign.repeats(half, near, rounds) for half in ("first", "second")]
     pooled = [together(a, b) for a, b in zip(*halves)]
     repeats_csv(campaign.out / "repeats.csv", halves)
-    times = {tuple(row["settings"]): row["time"] for row in pooled}
-    for row in campaign.points:
-        row["time"] = times.get(tuple(row["settings"]), row["time"])
     chosen = front(pooled, scene.floor, statistics.median(tie(row) for row in pooled))
     presets = campaign.presets(rounds)
     more = {"robust": robustness(campaign, chosen)} if robust else {}
@@ -228,20 +231,6 @@ def run_scene(program, scene, out, form, robust):
         "presets": presets,
         "curves": curves(scene, campaign),
     } | more
-
-
-def curves(scene, campaign):
-    """Histories of the densities of the sweep."""
-    result = []
-    for title, x, y in scene.plotted:
-        for k, row in enumerate(campaign.points):
-            if row["phase"] != "sweep" or list(row["labels"]) not in (["density"], ["increments"]):
-                continue
-            file = campaign.out / "sweep" / "out" / "points" / f"{k:04}" / "history.csv"
-            columns = known(file, (x, y))
-            if columns:
-                result.append({"title": title, "labels": row["labels"], "x": columns[0], "y": columns[1]})
-    return result
 
 
 def repeats_csv(path, halves):

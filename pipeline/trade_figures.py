@@ -104,12 +104,14 @@ def front_figure(scene):
 
 
 def knob_figure(scene):
-    """Error against time of the sweep, a line a knob."""
+    """Error against time of the sweep, a line a knob through its points and the reference setting."""
     figure = go.Figure()
     sweep = [row for row in split(scene["points"])[0] if row["phase"] == "sweep"]
     for name in dict.fromkeys(n for row in sweep for n in row["labels"]):
-        rows = [row for row in sweep if name in row["labels"]]
-        text = {"text": [row["labels"][name] for row in rows], "textposition": "top center", "textfont": {"size": 10}}
+        rows = [row for row in sweep if name in row["labels"] or not row["labels"]]
+        rows.sort(key=lambda row: row["time"])
+        values = [row["labels"].get(name, scene["reference"][name]) for row in rows]
+        text = {"text": values, "textposition": "top center", "textfont": {"size": 10}}
         figure.add_scatter(**against_time(rows, mode="lines+markers+text", name=name, **text))
     time_and_error(figure, "One knob at a time")
     return figure

@@ -4,7 +4,6 @@ A time is not known better than its repeats tell. Points that are closer than th
 which the more accurate is on the front; and two measurements agree at an error if the times they take to reach it differ by
 no more than the spread."""
 
-import csv
 import math
 import statistics
 
@@ -13,8 +12,8 @@ TARGETS = (0.1, 0.01, 0.001, 0.0001)
 FLOOR = 3.0
 # errors that differ by less are the same, relative
 SAME = 0.01
-# what a single run may be slower than the fastest of several, relative: so near the front it is run again
-MARGIN = 0.3
+# what a point may be slower than one as accurate and still be run again, relative: after one run, and after two
+MARGINS = (1.0, 0.3)
 
 
 def error_of(row, floor):
@@ -37,13 +36,13 @@ def once(rows):
     return list({tuple(row["settings"]): row for row in reversed(rows)}.values())[::-1]
 
 
-def candidates(rows, floor):
+def candidates(rows, floor, margin):
     """The rows that may be on the front once they are repeated: none as accurate is faster by more than the margin."""
     rows = [row for row in once(rows) if row["error"] is not None]
 
     def beaten(row):
         good = (other for other in rows if error_of(other, floor) <= error_of(row, floor))
-        return any(other["time"] * (1 + MARGIN) < row["time"] for other in good)
+        return any(other["time"] * (1 + margin) < row["time"] for other in good)
 
     return sorted((row for row in rows if not beaten(row)), key=lambda row: row["time"])
 
@@ -97,13 +96,3 @@ def common(scenes, target):
     cost = lambda rows: sum(math.log(row["time"]) for row in rows.values())
     key = min(everywhere, key=lambda key: cost(everywhere[key]))
     return key, everywhere[key]
-
-
-def known(file, columns):
-    """Columns of a history, or none if they are not there."""
-    try:
-        with open(file) as text:
-            rows = list(csv.DictReader(text))
-        return [[float(row[name]) for row in rows] for name in columns]
-    except (OSError, KeyError, ValueError):
-        return None

@@ -10,10 +10,10 @@ body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; mar
 h1 { font-size: 1.6em } h2 { margin-top: 2.2em; border-bottom: 1px solid #ccc }
 table { border-collapse: collapse; margin: 1em 0; font-size: 13px; font-variant-numeric: tabular-nums }
 th, td { padding: 3px 9px; text-align: right; border-bottom: 1px solid #e4e4e4 }
-th { background: #f2f4f7; cursor: pointer; vertical-align: bottom } .text { text-align: left }
+th { background: #f2f4f7; cursor: pointer; vertical-align: bottom } td { white-space: nowrap } .text { text-align: left; white-space: normal }
 th::after { content: "\\00a0\\2195"; color: #aaa } tr.front td { background: #eaf4ea } tr.failed td { color: #a33 }
 .figure { width: 100%; height: 560px } .wide { overflow-x: auto } .scroll { max-height: 420px; overflow: auto }
-.scroll td, .scroll th { white-space: nowrap } .note { color: #555 }
+.scroll td.text, .scroll th { white-space: nowrap } .note { color: #555 }
 @media print { .scroll { max-height: none; overflow: visible } h2 { break-before: page } th::after { content: "" } }
 """
 

@@ -13,9 +13,10 @@ import subprocess
 from pathlib import Path
 
 from trade_front import label
+from trade_history import read_history
 from trade_move import moved, offset, turn
 from trade_scenes import settings
-from trade_turn import Turn, read_history, taken
+from trade_turn import Turn, taken
 
 ROOT = Path(__file__).resolve().parent.parent
 SEEDS = (1, 2, 3)

@@ -3,7 +3,6 @@
 A place x of the scene goes to R x; a vector field f(x) becomes R f(Rᵀ x). Supports hold along x and y, so a scene on
 rollers can turn by a right angle only; one that is held in both directions wherever it is held turns by 30 degrees."""
 
-import csv
 import math
 import re
 
@@ -91,19 +90,6 @@ def supports(step):
     for group, given in step.get("displace", {}).items():
         held.setdefault(group, {}).update(given)
     return held
-
-
-def read_history(file):
-    """The columns of a history.csv that are numbers."""
-    with open(file) as text:
-        rows = list(csv.DictReader(text))
-    columns = {}
-    for name in rows[0]:
-        try:
-            columns[name] = [float(row[name]) for row in rows]
-        except ValueError:
-            continue
-    return columns
 
 
 def taken(measure, values):
