@@ -130,12 +130,12 @@ class Campaign:
         table = self.table()
         chosen, seen = [{}], [settings(self.scene, {})]
         for name, values in table.items():
-            for label in values:
-                setting = settings(self.scene, {name: label})
+            for level in values:
+                setting = settings(self.scene, {name: level})
                 # the reference has its label once, as a point of every knob
                 if setting not in seen:
                     seen.append(setting)
-                    chosen.append({name: label})
+                    chosen.append({name: level})
         rows = self.measure("sweep", chosen)
         spans = {}
         for name in table:

@@ -59,7 +59,7 @@ def document(data):
         "![Error against time of all scenes](trade/trade_fronts.png)\n",
         "## One setting for all scenes\n",
         table(*common_table(scenes)),
-        "\nA density of 1 is that of the scenes' own files.\n",
+        "\nA density of 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more.\n",
         "## The fastest setting of each scene\n",
         table(*targets_table(scenes)),
         "\n## Presets\n",

@@ -81,7 +81,7 @@ def build(data, out):
     )
     page.heading("What to choose")
     page.text(
-        "One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files."
+        "One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more."
     )
     page.table(*common_table(scenes))
     page.text("The fastest setting of each scene:")
