@@ -138,7 +138,7 @@ bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/
 
 TRADE := $(wildcard pipeline/trade_*.py)
 
-trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, 40 minutes: results/trade/trade.html
+trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, half an hour: results/trade/trade.html
 
 results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE | browser
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade
@@ -148,7 +148,7 @@ results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE 
 	$(PYTHON) pipeline/trade_check.py $@
 
 # and with every point of the front on moved nodes, turned, and under a counter of instructions
-trade-full:       ## the same with 64 points of the hypercube, 7 repeats and checks of the front, hours
+trade-full:       ## the same with 64 points of the hypercube and checks of the front, hours
 	$(MAKE) trade FULL=1
 
 trade-robust: $(MIDPLANE) $(VENV)  ## these checks for the fronts that `make trade` has measured

@@ -31,7 +31,7 @@ PRESETS = ("draft", "normal", "fine")
 # points of the hypercube, rounds of the front in each of two measurements, scenes
 FORMS = {
     "reduced": (4, 5, ("strip", "cook", "friction", "ring")),
-    "usual": (16, 5, tuple(SCENES)),
+    "usual": (16, 7, tuple(SCENES)),
     "full": (64, 7, tuple(SCENES)),
 }
 # the largest density of the reduced form

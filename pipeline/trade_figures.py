@@ -142,7 +142,8 @@ def answer_figure(scene):
         if scene["exact"] is not None:
             figure.add_hline(y=scene["exact"], line_dash="dot", line_color="#228833", row=1, col=column)
         figure.update_xaxes(type="log", row=1, col=column)
-    figure.update_layout(title=f"{name} against tolerance, increments (× those of the scene) and density", **LAYOUT)
+    title = f"{name} against tolerance, increments (× those of the scene) and density"
+    figure.update_layout(title=title, **LAYOUT | {"margin": LAYOUT["margin"] | {"t": 90}})
     return figure
 
 
@@ -210,7 +211,7 @@ def save_fronts(scenes, path):
         axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="major", alpha=0.3)
     axes[0][0].set_ylabel("relative error", fontsize=8)
-    axes[0][0].legend(fontsize=7, loc="lower left")
+    axes[0][0].legend(fontsize=7, loc="best")
     figure.tight_layout()
     figure.savefig(path, dpi=130)
     plt.close(figure)
