@@ -22,17 +22,17 @@ from trade_compare import repeatability, together
 from trade_extras import densities, features, penalty
 from trade_front import MARGINS, candidates, front, label, tie
 from trade_history import curves
-from trade_machine import machine, mesher
+from trade_machine import machine, mesher, pin
 from trade_robust import robustness
 from trade_scenes import SCENES, knobs, reference, settings
 
 ROOT = Path(__file__).resolve().parent.parent
 PRESETS = ("draft", "normal", "fine")
-# points of the hypercube, rounds of the front in each of two measurements, scenes
+# points of the hypercube, rounds of the front in each of two measurements, scenes, those whose front is run moved and turned
 FORMS = {
-    "reduced": (4, 5, ("strip", "cook", "friction", "ring")),
-    "usual": (16, 7, tuple(SCENES)),
-    "full": (64, 7, tuple(SCENES)),
+    "reduced": (4, 5, ("strip", "cook", "friction", "ring"), ("cook", "ring")),
+    "usual": (16, 7, tuple(SCENES), ()),
+    "full": (64, 7, tuple(SCENES), tuple(SCENES)),
 }
 # the largest density of the reduced form
 SMALL = 1
@@ -194,7 +194,7 @@ def write_whole(path, text):
 
 def run_scene(program, scene, out, form, robust):
     """All phases of a scene."""
-    count, rounds, _ = FORMS[form]
+    count, rounds = FORMS[form][:2]
     campaign = Campaign(program, scene, out, form)
     start = time.monotonic()
     spans = campaign.sweep()
@@ -250,7 +250,9 @@ def main():
     parser.add_argument("--form", choices=FORMS, default="usual")
     parser.add_argument("--scenes", nargs="+", choices=SCENES)
     parser.add_argument(
-        "--robust", action="store_true", help="move nodes, turn the scenes, count instructions, as the full form does"
+        "--robust",
+        action="store_true",
+        help="move nodes, turn scenes, count instructions in every scene, as the full form does",
     )
     parser.add_argument("--fresh", action="store_true", help="forget what an earlier campaign has measured")
     options = parser.parse_args()
@@ -261,13 +263,12 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     start, before = time.monotonic(), os.getloadavg()
     chosen = options.scenes or FORMS[options.form][2]
-    full = options.form == "full"
     earlier = json.loads((out / "trade.json").read_text())["minutes"] if (out / "trade.json").is_file() else 0.0
-    cores = os.sched_getaffinity(0)
-    if full:
-        os.sched_setaffinity(0, {max(cores)})
-    scenes = {name: run_scene(program, SCENES[name], out, options.form, full or options.robust) for name in chosen}
-    os.sched_setaffinity(0, cores)
+    cores = pin() if options.form == "full" else None
+    robust = chosen if options.robust else FORMS[options.form][3]
+    scenes = {name: run_scene(program, SCENES[name], out, options.form, name in robust) for name in chosen}
+    if cores:
+        pin(cores)
     extras = {"penalty": penalty(program, out, options.form)}
     if options.form != "reduced":
         extras |= {"densities": densities(program, out), "features": features(program, out)}

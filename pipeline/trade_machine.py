@@ -40,3 +40,12 @@ def mesher(out):
     script.write_text(f'#!/bin/sh\n[ "$1" = --version ] && echo "{version}" && exit\nexec gmsh "$@"\n')
     script.chmod(0o755)
     return script
+
+
+def pin(cores=None):
+    """Keeps this process and all that it starts on some cores, or on one; returns those before. Linux only."""
+    if not hasattr(os, "sched_setaffinity"):
+        return None
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, cores or {max(before)})
+    return before

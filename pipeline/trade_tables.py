@@ -132,9 +132,10 @@ def robust_text(robust):
         "valgrind": "counted by valgrind, on the processor that it imitates",
         "none": "not counted: neither perf nor valgrind could",
     }
+    rollers = ", as its rollers hold along x or y only" if robust["degrees"] == 90 else ""
     return (
         "Every point of the front again with the nodes of both sides moved along the joint by up to a quarter of an edge, "
-        f"three seeds, and with the whole scene turned by {robust['degrees']} degrees. Instructions are "
+        f"three seeds, and with the whole scene turned by {robust['degrees']} degrees{rollers}. Instructions are "
         f"{how[robust['counter']]}."
     )
 
