@@ -1,5 +1,6 @@
 //! Claim: a double cantilever beam opens as a plane model of quadratic elements that was converged over three meshes says,
-//! on matched arms and on unmatched ones; on coarse meshes its local snap-backs are followed.
+//! on matched arms and on unmatched ones; on coarse meshes it runs through local snap-backs to the
+//! end, however large the increments.
 //!
 //! ```text
 //!    ↑ d        a₀ = 30 mm
@@ -22,10 +23,15 @@ struct Run {
     stored: Vec<f64>,
     dissipated: Vec<f64>,
     turns: usize,
+    leaps: usize,
 }
 
 /// The scene of the gallery with so many edges along the joint, opened to 4 mm.
 fn run(lower: usize, upper: usize, increments: usize) -> Run {
+    run_to("4e-3", "auto", lower, upper, increments)
+}
+
+fn run_to(opening: &str, control: &str, lower: usize, upper: usize, increments: usize) -> Run {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
     command.arg("run").arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/dcb"));
@@ -33,7 +39,8 @@ fn run(lower: usize, upper: usize, increments: usize) -> Run {
         format!("subdomains.lower.parameters.edges={lower}"),
         format!("subdomains.upper.parameters.edges={upper}"),
         format!("/steps/0/increments={increments}"),
-        "/steps/0/displace/upper.load/y=4e-3".into(),
+        format!("/steps/0/displace/upper.load/y={opening}"),
+        format!("/steps/0/control={control}"),
     ] {
         command.arg("--set").arg(setting);
     }
@@ -53,6 +60,7 @@ fn run(lower: usize, upper: usize, increments: usize) -> Run {
         stored: column("stored"),
         dissipated: column("dissipated"),
         turns: summary["solution"]["turns"].as_array().unwrap().len(),
+        leaps: summary["solution"]["leaps"].as_array().unwrap().len(),
     }
 }
 
@@ -108,9 +116,31 @@ fn it_opens_as_the_converged_plane_model_on_unmatched_arms_too() {
 }
 
 #[test]
-fn coarse_arms_are_followed_beyond_the_peak_through_local_snap_backs() {
-    // one edge per process zone
-    let run = run(18, 18, 40);
-    assert!(run.turns > 0);
-    assert!(run.opening.windows(2).any(|pair| pair[1] < pair[0]), "nothing snaps back");
+fn coarse_arms_run_through_local_snap_backs_to_the_end() {
+    // one to two edges per process zone, matched and not
+    for (lower, upper) in [(14, 14), (18, 18), (18, 14), (28, 28)] {
+        let run = run_to("6e-3", "auto", lower, upper, 60);
+        let last = run.opening.len() - 1;
+        println!("{lower}:{upper}: {} increments, {} turns, {} leaps", last + 1, run.turns, run.leaps);
+        assert_eq!(run.opening[last], 6e-3);
+        assert!(run.turns > 0);
+        assert!(run.opening.windows(2).any(|pair| pair[1] < pair[0]), "nothing snaps back");
+    }
+}
+
+#[test]
+fn far_too_large_increments_end_where_small_ones_do() {
+    let end = |control: &str, increments: usize| {
+        let run = run_to("6e-3", control, 18, 18, increments);
+        let last = run.opening.len() - 1;
+        [run.force[last], run.dissipated[last]]
+    };
+    // by load with leaps, and along the path; the laws are integrated to 1e-4
+    let [force, dissipated] = end("load", 400);
+    for (control, increments) in [("load", 5), ("load", 20), ("auto", 60)] {
+        let [f, d] = end(control, increments);
+        println!("{control}, {increments}: {:e} and {:e} off", f / force - 1.0, d / dissipated - 1.0);
+        close(f, force, 1e-4, "load at the end");
+        close(d, dissipated, 1e-4, "dissipated energy");
+    }
 }

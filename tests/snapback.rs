@@ -111,23 +111,77 @@ fn an_increment_that_goes_too_far_from_the_start_is_divided() {
     }
 }
 
+/// Stress on the far branch, beyond the turning point.
+fn far_branch(u: f64, c: f64) -> f64 {
+    let (mut low, mut high) = (0.0, GI / (CHI * c));
+    while high - low > 1e-14 * CHI {
+        let s = 0.5 * (low + high);
+        *(if s * c - GI / CHI * (s / CHI).ln() > u { &mut low } else { &mut high }) = s;
+    }
+    low
+}
+
 #[test]
-fn a_leap_under_load_control_is_told() {
-    // far beyond the snap-back in one increment: the state is on the path, but was not reached along it
-    for (length, leaps) in [(0.3, true), (0.05, false)] {
+fn load_control_leaps_from_the_peak_to_the_far_branch_and_tells_it() {
+    for (length, strategy) in [(0.3, "condensed"), (1.0, "condensed"), (1.0, "plain"), (10.0, "condensed")] {
         let c = length / E + 1.0 / KN;
-        assert_eq!(c * CHI * CHI / GI > 1.0, leaps, "snaps back");
-        let end = 20.0 * CHI * c;
+        assert!(c * CHI * CHI / GI > 1.0, "snaps back");
+        let end = 1.2 * CHI * c;
         let bar = |y: f64| {
             rectangle(&even(0.0, 0.02, 1), &even(y, y + length / 2.0, 3), Shape::Quadrilateral4, |x, y| {
                 [x, y]
             })
         };
-        let text = scene(end, "load", "condensed").replace("\"increments\": 40", "\"increments\": 1");
-        let march = try_solve(&bind(&text, vec![bar(-length / 2.0), bar(0.0)]).unwrap());
-        let totals = march.end.unwrap();
-        let s = march.states[0].snapshot.tractions[0][0][0];
-        close(s, CHI * (-(end - s * c) * CHI / GI).exp(), 1e-6, CHI, "on the path");
-        assert_eq!(!totals.leaps.is_empty(), leaps, "L = {length}: {:?}", totals.leaps);
+        for increments in [1, 7, 40] {
+            let what = format!("L = {length}, {strategy}, {increments} increments");
+            let text = scene(end, "load", strategy);
+            let text = text.replace("\"increments\": 40", &format!("\"increments\": {increments}"));
+            let march = try_solve(&bind(&text, vec![bar(-length / 2.0), bar(0.0)]).unwrap());
+            let totals = march.end.unwrap();
+            assert_eq!(totals.leaps.len(), 1, "{what}: {:?}", totals.leaps);
+            // an increment is divided ten times at most
+            let level = totals.leaps[0].2 * 1.2;
+            assert!((1.0..1.0 + 2e-3).contains(&level), "{what}: leaps at {level} of the peak");
+            assert_eq!(march.states.len(), increments, "{what}");
+            for (state, level) in march.states.iter().zip(&march.load_factors) {
+                let u = level * end;
+                let s = if u < CHI * c { u / c } else { far_branch(u, c) };
+                for [traction, _] in &state.snapshot.tractions[0] {
+                    close(*traction, s, 1e-6, CHI, &what);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn many_points_that_crack_at_once_end_as_the_closed_form_says_in_any_increments() {
+    // short enough not to snap back: the even crack is the only answer
+    let length = 0.05;
+    let c = length / E + 1.0 / KN;
+    assert!(c * CHI * CHI / GI < 0.5);
+    let end = 4.0 * GI / CHI;
+    let bar = |edges: usize, y: f64| {
+        rectangle(&even(0.0, 0.02, edges), &even(y, y + length / 2.0, 3), Shape::Quadrilateral4, |x, y| {
+            [x, y]
+        })
+    };
+    for (control, strategy) in [("load", "condensed"), ("load", "plain"), ("auto", "condensed")] {
+        for increments in [1, 3, 60] {
+            let what = format!("{control}, {strategy}, {increments} increments");
+            let text = scene(end, control, strategy);
+            let text = text.replace("\"increments\": 40", &format!("\"increments\": {increments}"));
+            let text = text.replace("\"law_tolerance\": 1e-8", "\"law_tolerance\": 1e-5");
+            let march = try_solve(&bind(&text, vec![bar(11, -length / 2.0), bar(16, 0.0)]).unwrap());
+            let totals = march.end.unwrap();
+            assert!(totals.leaps.is_empty(), "{what}");
+            for (state, level) in march.states.iter().zip(&march.load_factors) {
+                let u = level * end;
+                let s = if u < CHI * c { u / c } else { far_branch(u, c) };
+                for [traction, _] in &state.snapshot.tractions[0] {
+                    close(*traction, s, 1e-5, CHI, &what);
+                }
+            }
+        }
     }
 }

@@ -71,7 +71,11 @@ impl Respond for Dragged<'_> {
     ) -> Result<Answer, String> {
         let answer = self.laws.respond(joint, point, jump, traction, stiffness)?;
         if let Some(old) = self.laws.old[joint].get(point) {
-            traction.iter_mut().zip(jump).zip(old.jump.iter()).for_each(|((t, r), r0)| *t += self.drag * (r - r0));
+            traction
+                .iter_mut()
+                .zip(jump)
+                .zip(old.jump.iter())
+                .for_each(|((t, r), r0)| *t += self.drag * (r - r0));
             stiffness.iter_mut().step_by(3).for_each(|d| *d += self.drag);
         }
         Ok(answer)

@@ -1,10 +1,11 @@
-//! The march through the load history. A linear scene takes one factorisation per set of supports and one solve per
-//! increment; any other iterates, and divides an increment that finds no equilibrium.
+//! The march through the load history. A linear scene takes one factorisation per set of supports and two solves per
+//! step; any other iterates, and divides an increment that finds no equilibrium.
 
 use std::sync::Arc;
 
 use super::course::Course;
-use super::engine::{Engine, LinearEngine};
+use super::engine::Engine;
+use super::linear::LinearEngine;
 use super::newton::NewtonEngine;
 use super::state::State;
 use super::strategy::{self, Estimate, asked};
@@ -54,7 +55,8 @@ impl Totals {
         let what = format!(
             "step \"{step}\": {count} increments leapt to another branch, the first at load factor {level:.6}"
         );
-        Some(Warning::new(Code::Leapt, what, "\"control\": \"auto\" follows the path between"))
+        let cure = "\"control\": \"auto\" follows the path between; where it leaps too, more edges over the cohesive zone";
+        Some(Warning::new(Code::Leapt, what, cure))
     }
 }
 

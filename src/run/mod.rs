@@ -11,6 +11,7 @@ mod failure;
 mod folder;
 mod laws;
 mod leap;
+mod linear;
 mod loading;
 mod march;
 pub mod memory;

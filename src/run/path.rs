@@ -65,7 +65,15 @@ impl<'a> Course<'a, '_> {
         self.engine.prepare(Some(&ramp), &[]);
         self.state.open(None);
         let part = 1.0 / stage.increments as f64;
-        let mut at = Standing { level: 0.0, change: 0.0, spent: 0.0, amount: 0.0, ratio: 1.0, most: 0.0, width: LEAST };
+        let mut at = Standing {
+            level: 0.0,
+            change: 0.0,
+            spent: 0.0,
+            amount: 0.0,
+            ratio: 1.0,
+            most: 0.0,
+            width: LEAST,
+        };
         let mut rising = 0.0;
         let mut passed = [(self.state.dissipated, 0.0); 3];
         for number in 1..=MOST * stage.increments {

@@ -88,7 +88,8 @@ impl<F: Form> NewtonEngine<'_, F> {
                 let own: Vec<f64> = tractions.iter().zip(pulls).map(|(t, pull)| t - pull).collect();
                 problem.model.joints[k].gather(&own)
             };
-            let forces: Vec<Vec<f64>> = form.active().iter().zip(&step.tractions).zip(&pulls).map(own).collect();
+            let forces: Vec<Vec<f64>> =
+                form.active().iter().zip(&step.tractions).zip(&pulls).map(own).collect();
             let residual = form.residual(&step.x, &forces, &target);
             let left = form.error(&residual, &step.x, &forces, &target);
             if step.iterations <= EASY {
@@ -139,7 +140,9 @@ impl Rest {
             for (p, (old, new)) in self.states[k].iter().zip(&step.memory[a]).enumerate() {
                 let moved = new.state.jump - old.jump;
                 let at = coupling.components * p;
-                let pull = |i: usize| pulls[a][at + i] + self.pulls.get(a).map_or(pulls[a][at + i], |before| before[at + i]);
+                let pull = |i: usize| {
+                    pulls[a][at + i] + self.pulls.get(a).map_or(pulls[a][at + i], |before| before[at + i])
+                };
                 let gained: f64 = (0..coupling.components).map(|i| 0.5 * pull(i) * moved[i]).sum();
                 let spent = gained - beyond_trapezium(law, old, new) + TAKEN * new.dissipation;
                 released += coupling.points[p].weight * spent;

@@ -1,0 +1,223 @@
+//! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
+
+use super::engine::{Engine, Failure, Make, Path, bases};
+use super::loading::{Ledger, Load};
+use super::state::{Found, JointAnswer, State};
+use crate::assembly::Joint;
+use crate::problem::Problem;
+use crate::solver::{
+    Base, Continuum, Factored, Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution, System,
+};
+
+/// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
+/// load level two at most.
+pub(super) struct LinearEngine<'a, F> {
+    joints: &'a [Joint],
+    make: Make<'a, F>,
+    factored: Option<(Vec<bool>, F)>,
+    /// The step's loads, if they are affine.
+    ends: Option<Ends>,
+}
+
+/// The answer to a load.
+struct Answered {
+    solution: Solution,
+    /// Jumps (n, t) of every joint, law point by law point.
+    jumps: Vec<Vec<f64>>,
+    measured: Vec<f64>,
+}
+
+impl Answered {
+    fn new(solution: Solution, joints: &[Joint], measures: &[Measure]) -> Answered {
+        let jumps = joints.iter().map(|joint| joint.jumps(&solution.u)).collect();
+        let measured = measures.iter().map(|measure| measure.of(&solution)).collect();
+        Answered { solution, jumps, measured }
+    }
+}
+
+/// Answers at the ends of a ramp, as far as they were needed. Between them the response is
+///
+/// ```text
+/// u(λ) = u₀ + λ (u₁ − u₀)
+/// ```
+///
+/// and so are jumps and measures, with which an increment whose fields are not stored can do.
+struct Ends {
+    ramp: Ramp,
+    measures: Vec<Measure>,
+    answers: [Option<Answered>; 2],
+}
+
+impl Ends {
+    /// The equilibrium at a load level, with displacements if it is to be `complete`. Its backward error is the larger of both
+    /// ends', relative to what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding
+    /// of the sum.
+    fn at(
+        &mut self,
+        factored: &impl Factored,
+        joints: &[Joint],
+        level: f64,
+        complete: bool,
+    ) -> Option<Found> {
+        let needed = if level == 1.0 { 1..2 } else { 0..2 };
+        let missing: Vec<usize> = needed.filter(|&end| self.answers[end].is_none()).collect();
+        let load = |&end: &usize| (&self.ramp.force[end][..], &self.ramp.prescribed[end][..]);
+        let solved = factored.refined_all(&missing.iter().map(load).collect::<Vec<_>>());
+        for (end, solution) in missing.into_iter().zip(solved) {
+            self.answers[end] = Some(Answered::new(solution, joints, &self.measures));
+        }
+        let [start, end] = &self.answers;
+        let end = end.as_ref()?;
+        let start = if level == 1.0 { end } else { start.as_ref()? };
+        let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + level * (b - a)).collect()
+        };
+        let (a, b) = (&start.solution, &end.solution);
+        let backward_error = a.backward_error.max(b.backward_error);
+        let solution = || Solution {
+            u: between(&a.u, &b.u),
+            reactions: between(&a.reactions, &b.reactions),
+            backward_error,
+        };
+        let jumps = start.jumps.iter().zip(&end.jumps).map(|(a, b)| between(a, b)).collect();
+        let ledger = Ledger::new(level, &between(&start.measured, &end.measured));
+        Some(found(complete.then(solution), backward_error, jumps, ledger))
+    }
+}
+
+/// What a linear scene tells the march of an equilibrium.
+fn found(
+    solution: Option<Solution>,
+    backward_error: f64,
+    jumps: Vec<Vec<f64>>,
+    ledger: Option<Ledger>,
+) -> Found {
+    let answer = |(joint, jumps): (usize, Vec<f64>)| {
+        let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+        JointAnswer { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
+    };
+    let joints = jumps.into_iter().enumerate().map(answer).collect();
+    Found { solution, ledger, joints, iterations: 0, residuals: vec![backward_error] }
+}
+
+/// A solution with a larger backward error is not kept.
+const UNUSABLE: f64 = 1e-6;
+
+impl<'a> LinearEngine<'a, Linear<'a>> {
+    /// With one factor of the whole.
+    pub(super) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
+        let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
+        LinearEngine { joints: system.joints, make: Box::new(make), factored: None, ends: None }
+    }
+}
+
+impl<'a> LinearEngine<'a, Base<'a>> {
+    /// With the bodies condensed on their joints.
+    pub(super) fn condensed(
+        problem: &'a Problem,
+        continuum: &'a Continuum,
+        stiffness: &'a [Vec<f64>],
+    ) -> Self {
+        let (joints, make) = (&problem.model.joints, bases(problem, continuum, stiffness));
+        LinearEngine { joints, make, factored: None, ends: None }
+    }
+}
+
+impl<F: Factored> Engine for LinearEngine<'_, F> {
+    fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
+        if self.factored.as_ref().is_some_and(|(of, _)| of == held) {
+            return Ok(false);
+        }
+        (self.factored, self.ends) = (None, None); // two factors at a time would not fit
+        let (factored, anew) = (self.make)(held)?;
+        self.factored = Some((held.to_vec(), factored));
+        Ok(anew)
+    }
+
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
+        let ends =
+            |ramp: &Ramp| Ends { ramp: ramp.clone(), measures: measures.to_vec(), answers: [None, None] };
+        self.ends = ramp.map(ends);
+    }
+
+    fn finds_all_jumps(&self) -> bool {
+        true
+    }
+
+    fn solve(&mut self, _: &State, load: &Load, _: f64, complete: bool) -> Result<Found, Failure> {
+        let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let usable = |found: &Found| found.residuals[0] <= UNUSABLE;
+        let between =
+            self.ends.as_mut().and_then(|ends| ends.at(factored, self.joints, load.level, complete));
+        if let Some(found) = between.filter(usable) {
+            return Ok(found);
+        }
+        let solution = factored.refined(&load.loaded, &load.prescribed);
+        let Answered { solution, jumps, .. } = Answered::new(solution, self.joints, &[]);
+        let backward_error = solution.backward_error;
+        let found = found(Some(solution), backward_error, jumps, None);
+        if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
+    }
+
+    fn relax(&mut self, _: &State, _: &Load, _: bool) -> Result<Found, Failure> {
+        Err(Failure::Unusable(f64::INFINITY)) // nothing softens
+    }
+
+    fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Found, f64), Failure> {
+        Err(Failure::Unusable(f64::INFINITY)) // nothing dissipates
+    }
+
+    fn recover(&self, _: &Load) -> Option<Solution> {
+        None
+    }
+
+    fn accept(&mut self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+
+    /// A free dof on a spring of stiffness 1 that counts the solves.
+    #[derive(Default)]
+    struct Spring(Cell<usize>);
+
+    impl Factored for Spring {
+        fn held(&self) -> &[bool] {
+            &[false]
+        }
+
+        fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+            vec![f[0] - u[0]]
+        }
+
+        fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
+            scale[0] += u[0].abs();
+        }
+
+        fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
+            self.add_scale(u, scale);
+        }
+
+        fn apply(&self, b: &mut [Vec<f64>]) {
+            self.0.set(self.0.get() + b.len());
+        }
+    }
+
+    #[test]
+    fn a_ramp_takes_two_solves_and_a_single_increment_one() {
+        for (increments, solves) in [(1, 1), (2, 2), (51, 2)] {
+            let spring = Spring::default();
+            let ramp = Ramp { force: [vec![1.0], vec![3.0]], prescribed: [vec![0.0], vec![0.0]] };
+            let mut ends = Ends { ramp, measures: Vec::new(), answers: [None, None] };
+            for k in 1..=increments {
+                let level = k as f64 / increments as f64;
+                let found = ends.at(&spring, &[], level, true).unwrap();
+                assert_eq!(found.solution.unwrap().u, [1.0 + level * 2.0]);
+            }
+            assert_eq!(spring.0.get(), solves, "{increments} increments");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Claim: a joint that opens and slides at once passes through the mode where σ stays at zero on a mesh as it does at a point,
+//! in any increments and without cycling.
+//!
+//! The bodies are so stiff that every law point has the prescribed jump to 1e-6.
+
+mod common;
+
+use common::*;
+use midplane::shape::Shape;
+
+/// Fraction of the way to (1e-4, 1e-4), σ, τ [MPa], by an independent program (`law_closed_forms.rs`).
+const AT_45_DEGREES: [(f64, f64, f64); 4] = [
+    (0.2, 0.6367454859, 2.579310358),
+    (0.5, 0.0, 2.153330201),
+    (0.7, 0.0, 1.264514196),
+    (0.9, 0.0, 0.3182020031),
+];
+
+fn scene(young: f64, fraction: f64, increments: usize, strategy: &str) -> String {
+    let end = fraction * 1e-4;
+    format!(
+        r#"{{"plane": "stress",
+        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+        "materials": {{"m": {{"young": {young}, "poisson": 0}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom",
+            "law_tolerance": 1e-6, "law": {{"type": "cracking", "normal_stiffness": 1e6, "tangential_stiffness": 1e6,
+            "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785, "tan_friction_residual": 0.6,
+            "fracture_energy_i": 2e-4, "fracture_energy_iia": 2e-3, "dilatancy_stress": 0}}}}}},
+        "solution": {{"strategy": "{strategy}"}},
+        "steps": [{{"name": "open", "increments": {increments},
+            "fix": {{"lower.bottom": ["x", "y"]}},
+            "displace": {{"upper.top": {{"x": {end}, "y": {end}}}}}}}]}}"#
+    )
+}
+
+fn bodies() -> Vec<midplane::mesh::Mesh> {
+    let body = |edges: usize, y: f64| {
+        rectangle(&even(0.0, 0.1, edges), &even(y, y + 0.05, 2), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    vec![body(5, -0.05), body(7, 0.0)]
+}
+
+#[test]
+fn sigma_stays_at_zero_on_stiff_bodies_as_at_a_point() {
+    for strategy in ["condensed", "plain"] {
+        for (fraction, sigma, tau) in AT_45_DEGREES {
+            for increments in [1, 9, 90] {
+                let what = format!("{strategy}, {increments} increments to {fraction}");
+                let march = try_solve(&bind(&scene(1e12, fraction, increments, strategy), bodies()).unwrap());
+                let totals = march.end.unwrap();
+                assert_eq!((totals.halved, totals.leaps.len()), (0, 0), "{what}: cut");
+                assert!(march.iterations.iter().all(|&n| n <= 8), "{what}: {:?}", march.iterations);
+                let state = &march.states[increments - 1];
+                for (traction, law) in state.snapshot.tractions[0].iter().zip(&state.snapshot.states[0]) {
+                    close(traction[0], sigma, 1e-5, 1.0, &what);
+                    close(traction[1].abs(), tau, 1e-5, 1.0, &what);
+                    assert_eq!(law.status == 3, sigma == 0.0, "{what}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn soft_bodies_pass_through_it_in_any_increments() {
+    // points reach σ = 0 one after the other, and none is cut
+    let end = |increments: usize| {
+        let march = try_solve(&bind(&scene(1e4, 1.0, increments, "condensed"), bodies()).unwrap());
+        let totals = march.end.unwrap();
+        assert_eq!((totals.halved, totals.leaps.len()), (0, 0), "{increments} increments");
+        let passed = march.states.iter().any(|state| state.snapshot.states[0].iter().any(|s| s.status == 3));
+        assert!(passed || increments == 1);
+        march.states[march.states.len() - 1].dissipated
+    };
+    let fine = end(400);
+    // every increment is a straight way of the jumps: the error falls with the square of its length
+    for (increments, error) in [(1, 1e-2), (10, 5e-3), (40, 5e-4), (100, 1e-4)] {
+        let dissipated = end(increments);
+        println!("{increments} increments: dissipated {:e} off", dissipated / fine - 1.0);
+        close(dissipated, fine, error, fine, "dissipated energy");
+    }
+}
