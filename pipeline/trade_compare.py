@@ -2,7 +2,8 @@
 
 At the error of every point on either front, the fastest time that reaches it in one campaign is compared with that in the
 other, over all points that were repeated. They agree if the two differ by no more than the spread of the repeats, the larger
-of the two campaigns' for that scene. Ends with code 1 if they disagree anywhere."""
+of the two campaigns' for that scene. Ends with code 1 if they disagree anywhere. What is printed is kept as compared.txt
+beside the first file."""
 
 import argparse
 import json
@@ -47,7 +48,7 @@ def repeatability(front, halves, pooled, floor):
 
 
 def compare(name, a, b):
-    """Prints how a scene of two campaigns compares, and says whether they agree."""
+    """Lines that say how a scene of two campaigns compares, and whether they agree."""
     floor = a["floor"]
     pooled = [[together(*rows) for rows in zip(*scene["repeated"])] for scene in (a, b)]
     most = max(scene["repeatability"]["spread"] for scene in (a, b))
@@ -56,14 +57,13 @@ def compare(name, a, b):
     apart = [(row, ratio) for row, ratio in zip(levels, found) if ratio - 1 > most]
     worst = max(range(len(found)), key=found.__getitem__)
     same = {tuple(row["settings"]) for row in a["front"]} & {tuple(row["settings"]) for row in b["front"]}
-    print(
+    lines = [
         f"{name:10} {'no ' if apart else 'yes'}  {len(found) - len(apart):3} of {len(found):3} errors"
         f"  spread {100 * most:4.0f} %  worst × {found[worst]:.2f} at {levels[worst]['error']:.2g}"
         f"  settings on both {len(same)} of {len(a['front'])} and {len(b['front'])}"
-    )
-    for row, ratio in apart:
-        print(f"{'':10}      × {ratio:.2f} at {row['error']:.2g}: {label(row)}")
-    return not apart
+    ]
+    lines += [f"{'':10}      × {ratio:.2f} at {row['error']:.2g}: {label(row)}" for row, ratio in apart]
+    return lines, not apart
 
 
 def main():
@@ -71,16 +71,20 @@ def main():
     parser.add_argument("campaigns", type=Path, nargs=2, help="two files trade.json")
     options = parser.parse_args()
     a, b = (json.loads(file.read_text()) for file in options.campaigns)
-    for of in (a, b):
-        machine = of["machine"]
-        print(
-            f"{machine['date']}, {machine['cpu']}, {machine['commit']}, form {of['form']}, load {of['load_before'][0]:.1f}"
-        )
-    print("scene      within the spread")
-    agree = [compare(name, a["scenes"][name], b["scenes"][name]) for name in a["scenes"] if name in b["scenes"]]
-    if not agree or set(a["scenes"]) != set(b["scenes"]):
+    if set(a["scenes"]) != set(b["scenes"]):
         sys.exit("the campaigns have not the same scenes")
-    sys.exit(0 if all(agree) else 1)
+    text, agree = [], True
+    for of in (a, b):
+        machine, load = of["machine"], of["load_before"][0]
+        text.append(f"{machine['date']}, {machine['cpu']}, {machine['commit']}, form {of['form']}, load {load:.1f}")
+    text.append("scene      within the spread")
+    for name in a["scenes"]:
+        lines, same = compare(name, a["scenes"][name], b["scenes"][name])
+        text += lines
+        agree &= same
+    print("\n".join(text))
+    (options.campaigns[0].parent / "compared.txt").write_text("\n".join(text) + "\n")
+    sys.exit(0 if agree else 1)
 
 
 if __name__ == "__main__":

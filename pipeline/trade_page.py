@@ -55,6 +55,7 @@ def point_rows(scene):
 
 
 BENCHES = {
+    "compared": "Fronts of two campaigns",
     "elastic": "An elastic scene against a way that knows nothing else",
     "precision": "A factor in single precision, refined in double",
 }
