@@ -138,7 +138,7 @@ bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/
 
 TRADE := $(wildcard pipeline/trade_*.py)
 
-trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, half an hour: results/trade/trade.html
+trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, a quarter of an hour: results/trade/trade.html
 
 results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE | browser
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade
