@@ -204,3 +204,24 @@ fn more_than_friction_can_hold_is_no_equilibrium() {
         }
     }
 }
+
+#[test]
+fn a_block_that_slides_away_is_no_equilibrium_however_far_it_gets() {
+    // the block of the gallery weighs 4 MN and holds a push of 2 MN
+    for strategy in ["condensed", "plain"] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_midplane"));
+        command.arg("run").arg(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/friction_block"));
+        command.args(["--set", "/steps/1/load/block.left/traction=[4.2, 0]", "--set"]);
+        command.arg(format!("/solution/strategy={strategy}")).arg("-o").arg(folder.path().join("out"));
+        let output = command.output().unwrap();
+        assert_eq!(output.status.code(), Some(3), "{strategy}: {}", String::from_utf8_lossy(&output.stderr));
+        let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+        let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+        let at = |name: &str| names.iter().position(|&column| column == name).unwrap();
+        let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+        let value = |name: &str| last[at(name)].parse::<f64>().unwrap();
+        assert!(value("push") > 1.999 && value("push") < 2.0 * (1.0 + 1e-9), "{strategy}: {}", value("push"));
+        assert!(value("energy_balance").abs() < 1e-8, "{strategy}");
+    }
+}

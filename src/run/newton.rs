@@ -3,13 +3,14 @@
 use super::engine::{Engine, Failure, Make, Path, bases, condensations};
 use super::laws::Laws;
 use super::loading::{Ledger, Load};
+use super::relax::runs_away;
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
 use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
-    Point, Ramp, Settings, Solution,
+    Point, Ramp, Settings, Solution, Unconverged,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -139,6 +140,11 @@ impl<F: Form> NewtonEngine<'_, F> {
             let starts = [&near, &start];
             let iterate = newton.solve(form, laws, &starts, &target, self.settings);
             let iterate = iterate.map_err(Failure::Unconverged)?;
+            if let Some(point) = runs_away(self.problem, laws.old, form.active(), &iterate.jumps, load) {
+                let (reason, worst) = ("nothing holds what slides or opens".into(), vec![point]);
+                let iterations = iterate.iterations;
+                return Err(Failure::Unconverged(Unconverged { reason, worst, iterations }));
+            }
             residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
             if !complete {
                 break (iterate, None);

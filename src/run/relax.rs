@@ -34,6 +34,10 @@ const LEAST: f64 = 1e-14;
 const MOST: f64 = 1e2;
 /// Most steps of a leap.
 const STEPS: usize = 400;
+/// Jumps that change in an increment by more than this part of the joint's length, and by more than so many times the largest
+/// displacement that is prescribed, run away: nothing holds what slides or opens, and the residual drowns in their rounding.
+const FAR: f64 = 0.1;
+const PRESCRIBED: f64 = 10.0;
 /// A step may seem to take up this part of what it dissipates: the laws integrate that to their own tolerance.
 const TAKEN: f64 = 1e-3;
 
@@ -79,6 +83,10 @@ impl<F: Form> NewtonEngine<'_, F> {
                 }
             };
             at.iterations += step.iterations;
+            if let Some(point) = runs_away(problem, from, form.active(), &step.jumps, load) {
+                (why, worst) = ("nothing holds what slides or opens".into(), vec![point]);
+                break;
+            }
             let pulls = at.pulls(problem, form.active(), &step, drag);
             if at.released(problem, form.active(), &step, &pulls) < 0.0 {
                 drag *= FACTOR;
@@ -99,16 +107,40 @@ impl<F: Form> NewtonEngine<'_, F> {
             if left <= NEAR {
                 let laws = Laws { problem, old: &at.states };
                 match newton.solve(form, &laws, &[&at.x], &target, self.settings) {
-                    Ok(last) => {
+                    Ok(last) if runs_away(problem, from, form.active(), &last.jumps, load).is_none() => {
                         at.iterations += last.iterations;
                         return Ok(Rest { x: last.x, ..at });
                     }
+                    Ok(last) => at.iterations += last.iterations,
                     Err(failed) => at.iterations += failed.iterations,
                 }
             }
         }
         Err(Failure::Unconverged(Unconverged { reason: why, worst, iterations: at.iterations }))
     }
+}
+
+/// The law point (joint, number) whose jump has moved farthest, if that is too far for anything to hold it.
+pub(super) fn runs_away(
+    problem: &Problem,
+    from: &[Vec<law::State>],
+    active: &[usize],
+    jumps: &[Vec<f64>],
+    load: &Load,
+) -> Option<(usize, usize)> {
+    let asked = PRESCRIBED * load.prescribed.iter().fold(0.0, |most: f64, u| u.abs().max(most));
+    let mut farthest = (1.0, None);
+    for (&k, jumps) in active.iter().zip(jumps) {
+        let coupling = &problem.model.joints[k].coupling;
+        let most = asked.max(FAR * coupling.midplane.length);
+        for (p, (old, r)) in from[k].iter().zip(jumps.chunks_exact(coupling.components)).enumerate() {
+            let moved = old.jump.iter().zip(r).map(|(old, r)| (r - old) * (r - old)).sum::<f64>().sqrt();
+            if moved.is_nan() || moved / most > farthest.0 {
+                farthest = (moved / most, Some((k, p)));
+            }
+        }
+    }
+    farthest.1
 }
 
 impl Rest {
