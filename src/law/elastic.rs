@@ -43,6 +43,7 @@ impl Elastic {
             state: State { jump, traction, ..*old },
             dissipation: 0.0,
             dissipation_gradient: Vector2::zeros(),
+            released: 0.0,
         }
     }
 }

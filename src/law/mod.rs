@@ -84,6 +84,9 @@ pub struct Response {
     pub dissipation: f64,
     /// ∂dissipation/∂jump (n, t) [stress].
     pub dissipation_gradient: Vector2<f64>,
+    /// Energy per area lost at once by a drop of the traction within the increment, not part of the dissipation
+    /// [stress × length]; the cohesion of `coulomb` faces that part, zero for the other laws.
+    pub released: f64,
 }
 
 /// Why a law has no answer at this jump.

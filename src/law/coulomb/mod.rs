@@ -82,6 +82,7 @@ impl Coulomb {
                 },
                 dissipation: 0.0,
                 dissipation_gradient: Vector2::zeros(),
+                released: 0.0,
             };
         }
 
@@ -95,6 +96,7 @@ impl Coulomb {
                 state: State { jump, traction: trial, status: STICK, ..*old },
                 dissipation: 0.0,
                 dissipation_gradient: Vector2::zeros(),
+                released: 0.0,
             };
         }
 
@@ -119,6 +121,7 @@ impl Coulomb {
             },
             dissipation: slip * per_slip,
             dissipation_gradient: per_slip * slip_gradient + slip * (tan_psi - mu) * sigma_gradient,
+            released: 0.0,
         }
     }
 }

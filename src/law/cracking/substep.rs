@@ -141,6 +141,7 @@ impl Surface {
             state: State { jump, traction, jump_plastic, fracture_work: end.work, status: end.mode as u8 },
             dissipation: end.dissipation,
             dissipation_gradient: slopes.dissipation,
+            released: 0.0,
         }
     }
 }
