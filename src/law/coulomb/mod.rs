@@ -1,13 +1,22 @@
-//! Contact with Coulomb friction, constant cohesion and dilatancy.
+//! Contact with Coulomb friction, constant cohesion and dilatancy, exact along a straight way of the jump.
 //!
 //! ```text
 //! open    r_n > r_n^p:  t = 0,  r_t^p := r_t
-//! closed  σ = K_N (r_n − r_n^p),  τ = K_T (r_t − r_t^p),  |τ| ≤ c − μ σ,  Δr_n^p = tanψ |Δr_t^p|
+//! closed  σ = K_N (r_n − r_n^p),  τ = K_T (r_t − r_t^p),  |τ| ≤ c − μ σ,  ṙ_n^p = tanψ |ṙ_t^p|
+//! slip    |Δr_t^p| = (|τ_trial| + μ σ_trial − c) / (K_T + μ K_N tanψ),  from σ_a to σ_b it dissipates
+//!         |Δr_t^p| (c − (μ − tanψ) (σ_a + σ_b)/2)
 //! ```
 //!
-//! The limit is linear, so the return is closed:
-//! |Δr_t^p| = (|τ_trial| + μ σ_trial − c) / (K_T + μ K_N tanψ). An initial gap g is r_n^p = −g at the start: the jump
-//! at which the faces meet. Not in the paper, which only names friction laws (§3.2); classical otherwise.
+//! Between the events on the way (faces meet, slip starts, faces part) everything is linear, so answer and dissipation
+//! do not depend on how a way is divided. Faces that part with cohesion drop τ, |τ| ≤ c, to 0 at once: τ²/(2 K_T) is
+//! released, not dissipated; without cohesion slip has brought τ to 0 by then. At the apex of c = 0 faces that could
+//! part or slide with dilatancy (0 < ṙ_n < tanψ |ṙ_t|) slide, as their neighbours on either side of the apex do.
+//!
+//! An initial gap g is r_n^p = −g at the start: the jump at which the faces meet. Not in the paper, which only names
+//! friction laws (§3.2); classical otherwise.
+
+mod jet;
+mod way;
 
 use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
@@ -59,69 +68,29 @@ impl Coulomb {
         Ok(())
     }
 
-    /// How far a traction lies outside the surface |τ| ≤ c − μ σ, σ ≤ 0 [stress].
+    /// Excess of a traction over the surface |τ| ≤ c − μ σ, σ ≤ 0 [stress].
     pub(super) fn excess(&self, traction: Vector2<f64>) -> f64 {
         let (sigma, tau) = (traction.x, traction.y);
         sigma.max(tau.abs() + self.friction_coefficient * sigma - self.cohesion)
     }
 
-    /// Open, stick or slip, from the jump and the old irreversible jump alone.
+    /// Open, stick or slip at the end of the straight way from the old jump.
     pub(super) fn respond(&self, jump: Vector2<f64>, old: &State) -> Response {
-        let (kn, kt, mu) = (self.normal_stiffness, self.tangential_stiffness, self.friction_coefficient);
-        let tan_psi = self.dilatancy;
-        if jump.x > old.jump_plastic.x {
-            return Response {
-                traction: Vector2::zeros(),
-                stiffness: Matrix2::zeros(),
-                state: State {
-                    jump,
-                    traction: Vector2::zeros(),
-                    jump_plastic: Vector2::new(old.jump_plastic.x, jump.y),
-                    status: OPEN,
-                    ..*old
-                },
-                dissipation: 0.0,
-                dissipation_gradient: Vector2::zeros(),
-                released: 0.0,
-            };
-        }
-
-        let elastic = jump - old.jump_plastic;
-        let trial = Vector2::new(kn * elastic.x, kt * elastic.y);
-        let excess = trial.y.abs() + mu * trial.x - self.cohesion;
-        if excess <= 0.0 {
-            return Response {
-                traction: trial,
-                stiffness: Matrix2::new(kn, 0.0, 0.0, kt),
-                state: State { jump, traction: trial, status: STICK, ..*old },
-                dissipation: 0.0,
-                dissipation_gradient: Vector2::zeros(),
-                released: 0.0,
-            };
-        }
-
-        let sign = trial.y.signum();
-        let slip = excess / (kt + mu * kn * tan_psi);
-        let sigma = trial.x - kn * tan_psi * slip;
-        let limit = self.cohesion - mu * sigma;
-        let traction = Vector2::new(sigma, sign * limit);
-        let slip_gradient = Vector2::new(mu * kn, sign * kt) / (kt + mu * kn * tan_psi);
-        let sigma_gradient = Vector2::new(kn, 0.0) - kn * tan_psi * slip_gradient;
-        let tau_gradient = -sign * mu * sigma_gradient;
-        let per_slip = limit + sigma * tan_psi; // c + |σ| (μ − tanψ): never negative
+        let end = way::follow(self, old.jump, old.jump_plastic, jump);
+        let [sigma, tau] = end.traction;
+        let traction = Vector2::new(sigma.value, tau.value);
         Response {
             traction,
-            stiffness: Matrix2::new(sigma_gradient.x, sigma_gradient.y, tau_gradient.x, tau_gradient.y),
-            state: State {
-                jump,
-                traction,
-                jump_plastic: old.jump_plastic + slip * Vector2::new(tan_psi, sign),
-                status: SLIP,
-                ..*old
-            },
-            dissipation: slip * per_slip,
-            dissipation_gradient: per_slip * slip_gradient + slip * (tan_psi - mu) * sigma_gradient,
-            released: 0.0,
+            stiffness: Matrix2::from_rows(&[sigma.gradient.transpose(), tau.gradient.transpose()]),
+            state: State { jump, traction, jump_plastic: end.jump_plastic, status: end.status, ..*old },
+            dissipation: end.dissipation.value,
+            dissipation_gradient: end.dissipation.gradient,
+            released: end.released,
         }
+    }
+
+    /// Elastic energy of shear, τ²/(2 K_T) [stress × length].
+    fn shear_energy(&self, tau: f64) -> f64 {
+        0.5 * tau * tau / self.tangential_stiffness
     }
 }
