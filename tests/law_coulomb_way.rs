@@ -1,0 +1,322 @@
+//! Claim: the Coulomb law is exact along a straight way of the jump, whatever happens on it.
+//!
+//! ```text
+//! parts     one way in 1, 3 or 17 parts: the same traction, irreversible jump, ∑ dissipation, ∑ released
+//! energy    ∫ t · dr = Δ(σ²/2K_N + τ²/2K_T) + dissipation + released, by adaptive trapezia on the tractions alone
+//! smooth    the traction is continuous in the end of the way, but for the drop of the cohesion
+//! gradient  stiffness and dissipation gradient are central differences
+//! limit     n steps of backward Euler tend to it as 1/n
+//! ```
+//!
+//! Random laws, states and ways from a fixed seed; starts touching, on the surface, open, sticking; ways along an axis
+//! too. Every sequence of events is counted, so that none is left out.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod law_help;
+
+use law_help::Random;
+use midplane::law::{Coulomb, Law, N, Response, State, Stepping, T};
+use nalgebra::{Matrix3x2, Vector2, Vector3};
+use std::collections::BTreeMap;
+
+const OPEN: u8 = 4;
+
+fn respond(law: &Coulomb, jump: Vector2<f64>, old: &State) -> Response {
+    Law::Coulomb(*law).respond(jump, old, Stepping::Tolerance(1e-4)).unwrap()
+}
+
+/// A law, a state that a few steps lead to, and the end of a way from there.
+struct Case {
+    law: Coulomb,
+    old: State,
+    end: Vector2<f64>,
+}
+
+impl Case {
+    fn random(random: &mut Random) -> Case {
+        let kn = random.power(3.0, 6.0);
+        let mu = if random.between(0.0, 1.0) < 0.1 { 0.0 } else { random.between(0.0, 2.0) };
+        let law = Coulomb {
+            normal_stiffness: kn,
+            tangential_stiffness: kn * random.power(-2.0, 2.0),
+            friction_coefficient: mu,
+            cohesion: if random.coin() { 0.0 } else { random.between(0.0, 2.0) },
+            dilatancy: if random.coin() { 0.0 } else { random.between(0.0, mu) },
+        };
+        law.check().unwrap();
+        let gap = if random.coin() { 0.0 } else { random.between(0.0, 2.0) / kn };
+        let mut old = Law::Coulomb(law).initial_state(Vector2::zeros(), gap).unwrap();
+        for _ in 0..random.between(0.0, 5.0) as usize {
+            old = respond(&law, next(&law, &old, random), &old).state;
+        }
+        let end = next(&law, &old, random);
+        Case { law, old, end }
+    }
+
+    fn at(&self, s: f64) -> Vector2<f64> {
+        self.old.jump + s * (self.end - self.old.jump)
+    }
+
+    /// Size of tractions: stiffness times jump.
+    fn stress(&self) -> f64 {
+        self.reach(&[self.old.jump, self.old.jump_plastic, self.end])
+    }
+
+    fn reach(&self, jumps: &[Vector2<f64>]) -> f64 {
+        let Coulomb { normal_stiffness: kn, tangential_stiffness: kt, cohesion, .. } = self.law;
+        jumps.iter().fold(cohesion, |size, jump| size.max(kn * jump.x.abs()).max(kt * jump.y.abs()))
+    }
+
+    /// Size of jumps.
+    fn length(&self) -> f64 {
+        self.stress() / self.law.normal_stiffness.min(self.law.tangential_stiffness)
+    }
+
+    /// Name of the sequence of events.
+    fn sequence(&self) -> String {
+        let start = if self.old.jump.x > self.old.jump_plastic.x { "open" } else { "closed" };
+        let response = respond(&self.law, self.end, &self.old);
+        let slips = if response.dissipation > 0.0 { " slip" } else { "" };
+        let end = ["stick", "", "slides", "", "open"][usize::from(response.state.status)];
+        let drop = if response.released > 0.0 { " drop" } else { "" };
+        format!("{start}{slips}{drop} {end}")
+    }
+}
+
+/// A jump around the irreversible one or the present one, or in a line with the present one along an axis.
+fn next(law: &Coulomb, old: &State, random: &mut Random) -> Vector2<f64> {
+    let way = random.direction() * random.power(-1.5, 1.5);
+    let way = Vector2::new(way.x / law.normal_stiffness, way.y / law.tangential_stiffness);
+    match random.between(0.0, 10.0) as usize {
+        0 => old.jump + Vector2::new(way.x, 0.0),
+        1 => old.jump + Vector2::new(0.0, way.y),
+        2..6 => old.jump + way,
+        _ => old.jump_plastic + way,
+    }
+}
+
+/// Checks `count` random cases; `check` returns false for those it cannot judge.
+fn cases(seed: u64, count: usize, mut check: impl FnMut(&Case) -> bool) {
+    let mut random = Random(seed);
+    let (mut counts, mut left_out) = (BTreeMap::new(), 0);
+    for _ in 0..count {
+        let case = Case::random(&mut random);
+        if check(&case) {
+            *counts.entry(case.sequence()).or_insert(0) += 1;
+        } else {
+            left_out += 1;
+        }
+    }
+    println!("{counts:?}, left out {left_out}");
+    let sequences = [
+        "closed stick",
+        "closed slip slides",
+        "closed open",
+        "closed drop open",
+        "closed slip open",
+        "closed slip drop open",
+        "open open",
+        "open stick",
+        "open slip slides",
+    ];
+    for sequence in sequences {
+        assert!(counts.get(sequence).is_some_and(|&n| n >= count / 200), "{sequence}: {counts:?}");
+    }
+    assert!(left_out <= count / 20, "{left_out} left out");
+}
+
+#[test]
+fn the_parts_of_a_way_make_no_difference() {
+    let mut worst = [0.0_f64; 4];
+    cases(1, 6000, |case| {
+        let whole = respond(&case.law, case.end, &case.old);
+        for parts in [3, 17] {
+            let (mut state, mut dissipated, mut released) = (case.old, 0.0, 0.0);
+            for part in 1..=parts {
+                let response = respond(&case.law, case.at(part as f64 / parts as f64), &state);
+                dissipated += response.dissipation;
+                released += response.released;
+                state = response.state;
+            }
+            let (stress, length) = (case.stress(), case.length());
+            let off = [
+                (state.traction - whole.traction).amax() / stress,
+                (state.jump_plastic - whole.state.jump_plastic).amax() / length,
+                (dissipated - whole.dissipation).abs() / (stress * length),
+                (released - whole.released).abs() / (stress * length),
+            ];
+            assert!(off.iter().all(|&off| off <= 1e-12), "{parts} parts: {off:?}, {}", case.sequence());
+            worst = std::array::from_fn(|i| worst[i].max(off[i]));
+        }
+        true
+    });
+    println!(
+        "worst differences of traction, irreversible jump, dissipation, released: {:?}",
+        worst.map(|off| format!("{off:.1e}"))
+    );
+}
+
+/// ∫ t · dr over a part of the way, halved until the tractions at five uneven places lie on one line.
+fn work(case: &Case, [from, to]: [f64; 2], ends: [Vector2<f64>; 2]) -> f64 {
+    let traction = |s: f64| respond(&case.law, case.at(s), &case.old).traction;
+    let straight = [0.137, 0.391, 0.5, 0.683, 0.9].into_iter().all(|part| {
+        let linear = ends[0] + part * (ends[1] - ends[0]);
+        (traction(from + part * (to - from)) - linear).amax() <= 1e-14 * case.stress()
+    });
+    let middle = 0.5 * (from + to);
+    if straight || to - from < 1e-15 {
+        return 0.5 * (ends[0] + ends[1]).dot(&(case.at(to) - case.at(from)));
+    }
+    let between = traction(middle);
+    work(case, [from, middle], [ends[0], between]) + work(case, [middle, to], [between, ends[1]])
+}
+
+#[test]
+fn the_work_along_a_way_is_stored_dissipated_or_released() {
+    let mut worst = 0.0_f64;
+    cases(2, 3000, |case| {
+        let whole = respond(&case.law, case.end, &case.old);
+        let (kn, kt) = (case.law.normal_stiffness, case.law.tangential_stiffness);
+        let stored = |t: Vector2<f64>| 0.5 * (t.x * t.x / kn + t.y * t.y / kt);
+        let spent = stored(whole.traction) - stored(case.old.traction) + whole.dissipation + whole.released;
+        let pieces = 8;
+        let at = |k: usize| respond(&case.law, case.at(k as f64 / pieces as f64), &case.old).traction;
+        let worked: f64 = (0..pieces)
+            .map(|k| {
+                let piece = [k as f64 / pieces as f64, (k + 1) as f64 / pieces as f64];
+                work(case, piece, [if k == 0 { case.old.traction } else { at(k) }, at(k + 1)])
+            })
+            .sum();
+        let off = (worked - spent).abs() / (case.stress() * case.length());
+        assert!(off <= 1e-12, "{off:.1e}: {worked:e}, accounted for {spent:e}, {}", case.sequence());
+        assert!(whole.dissipation >= 0.0 && whole.released >= 0.0);
+        assert!(whole.state.status != OPEN || whole.state.jump_plastic.y == case.end.y);
+        let (sigma, tau) = (whole.traction.x, whole.traction.y);
+        let excess = tau.abs() + case.law.friction_coefficient * sigma - case.law.cohesion;
+        assert!(sigma <= 0.0 && (excess <= 1e-14 * case.stress() || tau == 0.0), "{excess}");
+        worst = worst.max(off);
+        true
+    });
+    println!("worst difference {worst:.1e}");
+}
+
+#[test]
+fn only_cohesion_drops_at_once() {
+    let mut random = Random(6);
+    let mut drops = 0;
+    cases(5, 3000, |case| {
+        let (first, other) = (case.end, next(&case.law, &case.old, &mut random));
+        let answer = |part: f64| respond(&case.law, first + part * (other - first), &case.old);
+        let change = |[from, to]: [f64; 2]| (answer(from).traction - answer(to).traction).amax();
+        for piece in 0..10 {
+            let mut ends = [piece as f64 / 10.0, (piece + 1) as f64 / 10.0];
+            for _ in 0..50 {
+                let middle = 0.5 * (ends[0] + ends[1]);
+                let halves = [[ends[0], middle], [middle, ends[1]]];
+                ends = if change(halves[0]) > change(halves[1]) { halves[0] } else { halves[1] };
+            }
+            let open = ends.map(|part| answer(part).state.status == OPEN);
+            if case.law.cohesion > 0.0 && open[0] != open[1] {
+                drops += 1;
+                continue;
+            }
+            let size = case.stress() + case.reach(&[other]);
+            assert!(change(ends) <= 1e-11 * size, "{:.1e}: {}", change(ends) / size, case.sequence());
+        }
+        true
+    });
+    println!("drops {drops}");
+    assert!(drops > 100);
+}
+
+/// Differences (f(r + δ) − f(r)) / δ of traction and dissipation, by rows σ, τ, D and columns n, t.
+fn quotient(case: &Case, step: f64) -> Matrix3x2<f64> {
+    let answer = |jump| {
+        let response = respond(&case.law, jump, &case.old);
+        Vector3::new(response.traction.x, response.traction.y, response.dissipation)
+    };
+    let shifts = [Vector2::new(step, 0.0), Vector2::new(0.0, step)];
+    Matrix3x2::from_columns(&shifts.map(|shift| (answer(case.end + shift) - answer(case.end)) / step))
+}
+
+#[test]
+fn stiffness_and_gradient_are_derivatives() {
+    let mut worst = [0.0_f64; 2];
+    cases(3, 20_000, |case| {
+        let whole = respond(&case.law, case.end, &case.old);
+        let length = (case.end - case.old.jump).amax();
+        let stiffest =
+            case.law.normal_stiffness.max(case.law.tangential_stiffness).max(whole.stiffness.amax());
+        let size =
+            Vector3::new(stiffest, stiffest, stiffest * length + whole.traction.amax() + case.law.cohesion);
+        let relative = |m: Matrix3x2<f64>| Matrix3x2::from_fn(|i, j| m[(i, j)] / size[i]);
+        let [coarse, fine] = [1e-5, 5e-6].map(|step| {
+            let [plus, minus] = [step, -step].map(|step| quotient(case, step * length));
+            (relative(0.5 * (plus + minus)), relative(plus - minus))
+        });
+        // a kink has no derivative: one within the stencil changes the mean, one at its centre leaves the difference
+        let kink = (coarse.0 - fine.0).amax() > 1e-8 || fine.1.amax() > 0.6 * coarse.1.amax() + 1e-8;
+        // no shear strength and no shear: a kink on either side
+        let frictionless = case.law.friction_coefficient + case.law.cohesion == 0.0;
+        if kink || frictionless && case.end.y == case.old.jump.y {
+            return false;
+        }
+        let [sigma, tau] = [N, T].map(|i| whole.stiffness.row(i).into_owned());
+        let exact = Matrix3x2::from_rows(&[sigma, tau, whole.dissipation_gradient.transpose()]);
+        let off = (relative(exact) - fine.0).abs();
+        let off = [off.rows(0, 2).max(), off.row(2).max()];
+        assert!(off.iter().all(|&off| off <= 1e-7), "{off:?}: {}", case.sequence());
+        worst = std::array::from_fn(|i| worst[i].max(off[i]));
+        true
+    });
+    println!(
+        "worst differences of stiffness and dissipation gradient: {:?}",
+        worst.map(|off| format!("{off:.1e}"))
+    );
+}
+
+/// One step of backward Euler: the return from the end of the step alone.
+fn euler(law: &Coulomb, jump: Vector2<f64>, old: &State) -> (State, f64) {
+    let Coulomb { normal_stiffness: kn, tangential_stiffness: kt, friction_coefficient: mu, .. } = *law;
+    let elastic = jump - old.jump_plastic;
+    let trial = Vector2::new(kn * elastic.x, kt * elastic.y);
+    let slip = ((trial.y.abs() + mu * trial.x - law.cohesion) / (kt + mu * kn * law.dilatancy)).max(0.0);
+    let sigma = trial.x - kn * law.dilatancy * slip;
+    let apart = old.jump.x > old.jump_plastic.x && elastic.x > 0.0;
+    if apart || sigma > 0.0 {
+        let jump_plastic = Vector2::new(old.jump_plastic.x, jump.y);
+        return (State { jump, traction: Vector2::zeros(), jump_plastic, status: OPEN, ..*old }, 0.0);
+    }
+    let irreversible = slip * Vector2::new(law.dilatancy, trial.y.signum());
+    let traction = Vector2::new(sigma, trial.y - kt * irreversible.y);
+    let state = State { jump, traction, jump_plastic: old.jump_plastic + irreversible, status: 0, ..*old };
+    (state, traction.dot(&irreversible))
+}
+
+#[test]
+fn many_steps_of_backward_euler_tend_to_it() {
+    let steps = 4000;
+    let mut worst = [0.0_f64; 2];
+    cases(4, 1500, |case| {
+        let law = &case.law;
+        let whole = respond(law, case.end, &case.old);
+        let (mut state, mut dissipated) = (case.old, 0.0);
+        for step in 1..=steps {
+            let (next, spent) = euler(law, case.at(step as f64 / steps as f64), &state);
+            state = next;
+            dissipated += spent;
+        }
+        if (state.status == OPEN) != (whole.state.status == OPEN) {
+            return false; // the end is within a step of the parting
+        }
+        let off = [
+            (state.traction - whole.traction).amax() / case.stress(),
+            (dissipated - whole.dissipation).abs() / (case.stress() * case.length()),
+        ];
+        let order = 1.0 / steps as f64;
+        assert!(off.iter().all(|&off| off <= 3.0 * order), "{off:?}: {}", case.sequence());
+        worst = std::array::from_fn(|i| worst[i].max(off[i]));
+        true
+    });
+    println!("worst differences of traction and dissipation: {:?}", worst.map(|off| format!("{off:.1e}")));
+}
