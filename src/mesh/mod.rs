@@ -7,13 +7,15 @@
 //!
 //! From a geometry to a mesh: `mesh_all` (`cache`) asks what a .geo consists of (`sources`), runs `gmsh`, and keeps the
 //! file; `read` takes its bytes apart (`msh`) and builds `cells`, `edges` and `groups`. Several subdomains may share a
-//! mesh, each a `part` of it.
+//! mesh, each a `part` of it. Files of earlier formats go through gmsh as a geometry does.
 
 mod cache;
 mod cells;
 mod edges;
 mod gmsh;
 mod groups;
+mod log;
+mod mirror;
 mod msh;
 mod part;
 mod quality;
@@ -27,7 +29,7 @@ use indexmap::IndexMap;
 
 pub use cache::{Job, Meshed, mesh_all, parameters};
 pub use gmsh::Gmsh;
-pub use read::{from_bytes, read};
+pub use read::{from_bytes, is_earlier_format, read};
 pub use touch::{Touch, touching};
 
 use crate::shape::Shape;

@@ -11,6 +11,8 @@ pub(super) struct Sources {
     pub(super) files: Vec<(PathBuf, Option<Vec<u8>>)>,
     /// False if what gmsh makes of it depends on more than these files.
     pub(super) closed: bool,
+    /// True if the file is no geometry but a mesh.
+    pub(super) is_mesh: bool,
     /// Every name in it.
     mentioned: Vec<String>,
     /// Names it declares with DefineConstant, and their values where those are plain numbers.
@@ -21,6 +23,8 @@ pub(super) struct Sources {
 
 /// Commands and options whose value is the name of a file.
 const READING: [&str; 4] = ["Include", "Merge", "ShapeFromFile", "FileName"];
+/// The first bytes of a mesh file.
+const MESH: &[u8] = b"$MeshFormat";
 /// Commands whose result does not come from the files alone.
 const OUTSIDE: [&str; 8] = [
     "System",
@@ -37,8 +41,12 @@ impl Sources {
     /// Reads a .geo file and, nested, all it includes. `geo` is absolute.
     pub(super) fn read(geo: &Path) -> Result<Sources> {
         let content = std::fs::read(geo).map_err(Error::io("read", geo))?;
-        let mut sources = Sources { closed: true, ..Sources::default() };
+        let is_mesh = content.starts_with(MESH);
+        let mut sources = Sources { closed: true, is_mesh, ..Sources::default() };
         sources.add(geo.to_path_buf(), Some(content));
+        if is_mesh {
+            return Ok(sources);
+        }
         let mut next = 0;
         while let Some((path, content)) = sources.files.get(next) {
             let (path, tokens) = (path.clone(), tokens(content.as_deref().unwrap_or(&[])));
