@@ -184,11 +184,6 @@ fn what_gmsh_passes_over_in_silence_is_refused() {
             "\"body\" has no elements",
         ),
         (
-            "a curve that does not exist",
-            BLOCK.replace("\"bottom\") = {1, 2}", "\"bottom\") = {8}"),
-            "\"bottom\" has no elements",
-        ),
-        (
             "no surface",
             BLOCK.replace("Physical Surface(\"body\") = {1, 2};", ""),
             "no triangles or quadrilaterals",
@@ -196,17 +191,11 @@ fn what_gmsh_passes_over_in_silence_is_refused() {
         ("nothing", String::new(), "no triangles or quadrilaterals"),
         ("an abort", format!("Abort;{BLOCK}"), "no triangles or quadrilaterals"),
         (
-            "half a body",
-            BLOCK.replace("{1, 2}; Physical Curve(\"bottom\")", "{1}; Physical Curve(\"bottom\")"),
-            "lies on no cell",
-        ),
-        (
             "the third dimension",
             BLOCK.replace("Point(6) = {2, 1, 0}", "Point(6) = {2, 1, 1}"),
             "off the plane",
         ),
         ("cubic cells", BLOCK.replace("= order;", "= 3;"), "cubic"),
-        ("one name twice", BLOCK.replace("\"bottom\"", "\"body\""), "are both called \"body\""),
     ];
     for (case, text, expected) in cases {
         let place = Place::new("silent.geo", &text);
@@ -414,6 +403,36 @@ fn meshes_of_earlier_formats_are_converted() {
             check_block(&mesh, order == 2.0);
             assert_eq!(mesh.points.len(), direct.points.len(), "{format}");
             assert_eq!(mesh.groups.len(), direct.groups.len(), "{format}");
+        }
+    }
+}
+
+#[test]
+fn groups_with_a_fault_are_no_reason_to_refuse_the_mesh() {
+    let cases = [
+        ("bottom", BLOCK.replace("\"bottom\") = {1, 2}", "\"bottom\") = {8}"), "\"bottom\" has no elements"),
+        ("top", format!("{BLOCK} Physical Curve(\"later\") = {{}};\n"), ""),
+        (
+            "bottom",
+            BLOCK.replace("{1, 2}; Physical Curve(\"bottom\")", "{1}; Physical Curve(\"bottom\")"),
+            "\"bottom\": element",
+        ),
+        (
+            "sensor",
+            format!("{BLOCK} Point(9) = {{1, 5, 0}}; Physical Point(\"sensor\") = {{9}};\n"),
+            "lies on no cell",
+        ),
+        ("7", format!("{BLOCK} Physical Curve(7) = {{3}}; Physical Surface(7) = {{1}};\n"), ""),
+    ];
+    for (name, text, expected) in cases {
+        let place = Place::new("block.geo", &text);
+        let mesh = read(&place.mesh(&[]).unwrap_or_else(|e| panic!("{name}: {e}")).path).unwrap();
+        keeps_its_promises(&mesh);
+        match &mesh.groups[name] {
+            Group::Unusable { what, .. } => {
+                assert!(!expected.is_empty() && what.contains(expected), "{what}")
+            }
+            other => assert!(expected.is_empty(), "{name} is usable: {other:?}"),
         }
     }
 }

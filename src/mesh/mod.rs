@@ -2,7 +2,7 @@
 //!
 //! Everything past this room may rely on: every index is in range, every point is finite and belongs to a cell, every
 //! cell counts its nodes counter-clockwise and has a positive Jacobian at its nodes and integration points, no two
-//! cells lie on the same side of an edge or disagree about its mid-node, every group has members and none twice, every
+//! cells lie on the same side of an edge or disagree about its mid-node, every group that is usable has members and none twice, every
 //! edge of a curve group knows the cell it bounds and runs with that cell on its left.
 //!
 //! From a geometry to a mesh: `mesh_all` (`cache`) asks what a .geo consists of (`sources`), runs `gmsh`, and keeps the
@@ -69,6 +69,17 @@ pub enum Group {
     Edges(Vec<Edge>),
     /// Physical surfaces: cell numbers, ascending.
     Cells(Vec<usize>),
+    /// Groups of one name and different dimensions: whoever asks for a curve means the curve.
+    Namesakes(Vec<Group>),
+    /// A group with a fault, which is told where the group is used.
+    Unusable {
+        /// "point", "curve", "surface" or "volume".
+        kind: &'static str,
+        /// The fault, naming the group.
+        what: String,
+        /// The way out.
+        cure: String,
+    },
 }
 
 /// An edge of a physical curve.
@@ -116,6 +127,8 @@ impl Group {
             Group::Points(points) => points.clone(),
             Group::Edges(edges) => edges.iter().flat_map(|edge| edge.nodes).collect(),
             Group::Cells(cells) => cells.iter().flat_map(|&c| mesh.cells.nodes(c).iter().copied()).collect(),
+            Group::Namesakes(all) => all.iter().flat_map(|group| group.points(mesh)).collect(),
+            Group::Unusable { .. } => Vec::new(),
         };
         points.sort_unstable();
         points.dedup();
@@ -127,15 +140,27 @@ impl Group {
         match self {
             Group::Points(members) | Group::Cells(members) => members.is_empty(),
             Group::Edges(edges) => edges.is_empty(),
+            Group::Namesakes(all) => all.is_empty(),
+            Group::Unusable { .. } => false,
         }
     }
 
-    /// "point", "curve" or "surface".
+    /// The groups of this name, one of each dimension.
+    pub fn each(&self) -> &[Group] {
+        match self {
+            Group::Namesakes(all) => all,
+            one => std::slice::from_ref(one),
+        }
+    }
+
+    /// "point", "curve", "surface" or "volume"; the name of several has no kind.
     pub fn kind(&self) -> &'static str {
         match self {
             Group::Points(_) => "point",
             Group::Edges(_) => "curve",
             Group::Cells(_) => "surface",
+            Group::Namesakes(_) => "name of several groups",
+            Group::Unusable { kind, .. } => kind,
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{along, groups};
 use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
-use crate::mesh::{Edge, Group};
+use crate::mesh::Edge;
 use crate::scene::{Load, Place, Scene, Value, Variable};
 
 /// A load in force.
@@ -47,14 +47,8 @@ impl BoundLoad {
             Load::Traction(values) => (both("traction", values), false),
             Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
             Load::Force(values) => {
-                let (body, group) = groups::find(scene, model, &path, name)?;
-                let Some(Group::Points(points)) = group else {
-                    let kind = group.map_or("body", Group::kind);
-                    let what = format!("a force on \"{name}\", which is a {kind}");
-                    let cure = "name a physical point, or give a \"traction\"";
-                    return Err(scene.source.refuse(&path, what, cure));
-                };
-                let target = Target::Points { body, points: points.clone() };
+                let (body, points) = groups::points(scene, model, &path, name)?;
+                let target = Target::Points { body, points: points.to_vec() };
                 return Ok(BoundLoad { target, values: both("force", values) });
             }
         };
