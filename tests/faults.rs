@@ -13,6 +13,7 @@
 //! earlier    runs before: [{"arguments": […], "files": {"name": "its text"}}], the files being written first
 //! files      {"name": "its text"}, written before the run
 //! absent     files that must not be there afterwards
+//! counts     {"folder:extension": how many files} afterwards
 //! gmsh       the script of a program that stands in for gmsh
 //! waits      the reason why the folder is not run yet
 //! ```
@@ -149,6 +150,14 @@ fn faults(case: &Path, expected: &Value) -> Vec<String> {
             faults.push(format!("{file} is there"));
         }
     }
+    for (place, wanted) in expected["counts"].as_object().into_iter().flatten() {
+        let (sub, extension) = place.split_once(':').expect("folder:extension");
+        let entries = std::fs::read_dir(folder.path().join(sub)).into_iter().flatten().flatten();
+        let count = entries.filter(|entry| entry.path().extension().is_some_and(|e| e == extension)).count();
+        if Some(count as u64) != wanted.as_u64() {
+            faults.push(format!("{count} files in {place} instead of {wanted}"));
+        }
+    }
     if !faults.is_empty() {
         faults.push(format!("it printed:\n{printed}"));
     }
@@ -189,6 +198,7 @@ fn a_wrong_expectation_is_noticed() {
         ("warning", serde_json::json!("W99")),
         ("words", serde_json::json!("nobody says this")),
         ("numbers", serde_json::json!({"tn": {"value": -10.001, "tolerance": 1e-6}})),
+        ("counts", serde_json::json!({"out:pvd": 2})),
         ("absent", serde_json::json!("out/history.csv")),
     ] {
         let mut expected = right.clone();

@@ -50,6 +50,19 @@ pub fn parameters(geo: &Path) -> Result<Vec<(String, Option<f64>)>> {
     Ok(Sources::read(&geo)?.declared)
 }
 
+/// Digest of a .geo and all it includes, or of a mesh file; none if what gmsh makes of it depends on more than files.
+pub fn digest(file: &Path) -> Result<Option<String>> {
+    let file = std::path::absolute(file).map_err(Error::io("read", file))?;
+    let sources = Sources::read(&file)?;
+    let mut hash = Sha256::new();
+    sources.digest(&mut |part: &[u8]| {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    });
+    let digits = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(sources.closed.then_some(digits))
+}
+
 fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     let geo = std::path::absolute(&job.geo).map_err(Error::io("read", &job.geo))?;
     let sources = Sources::read(&geo)?;
@@ -97,11 +110,7 @@ fn key(sources: &Sources, task: &Task, version: &str) -> String {
         add(option.as_encoded_bytes());
     }
     add(task.afterwards().as_bytes());
-    for (path, content) in &sources.files {
-        add(path.file_name().unwrap_or_default().as_encoded_bytes());
-        add(&[u8::from(content.is_some())]);
-        add(content.as_deref().unwrap_or_default());
-    }
+    sources.digest(&mut add);
     hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
 }
 

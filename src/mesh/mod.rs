@@ -27,7 +27,7 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 
-pub use cache::{Job, Meshed, mesh_all, parameters};
+pub use cache::{Job, Meshed, digest, mesh_all, parameters};
 pub use gmsh::Gmsh;
 pub use read::{from_bytes, is_earlier_format, read};
 pub use touch::{Touch, touching};

@@ -56,6 +56,15 @@ impl Sources {
         Ok(sources)
     }
 
+    /// Hands out the names and contents of all files, part by part.
+    pub(super) fn digest(&self, add: &mut dyn FnMut(&[u8])) {
+        for (path, content) in &self.files {
+            add(path.file_name().unwrap_or_default().as_encoded_bytes());
+            add(&[u8::from(content.is_some())]);
+            add(content.as_deref().unwrap_or_default());
+        }
+    }
+
     /// Refuses a parameter that this .geo would not listen to.
     pub(super) fn accepts(&self, geo: &Path, parameter: &str) -> Result<()> {
         let has = |names: &[String]| names.iter().any(|name| name == parameter);
