@@ -18,6 +18,7 @@ mod log;
 mod mirror;
 mod msh;
 mod part;
+mod pieces;
 mod quality;
 mod read;
 mod sources;
@@ -29,8 +30,9 @@ use indexmap::IndexMap;
 
 pub use cache::{Job, Meshed, digest, mesh_all, parameters};
 pub use gmsh::Gmsh;
+pub use pieces::Pieces;
 pub use read::{from_bytes, is_earlier_format, read};
-pub use touch::{Touch, touching};
+pub use touch::{Touch, coinciding, touching};
 
 use crate::shape::Shape;
 

@@ -48,7 +48,7 @@ impl Mesh {
 }
 
 /// The edges of the cells; a sound mesh has no faults, but a file is no place to rely on that.
-fn table(mesh: &Mesh, cells: &Cells, points: usize) -> Result<EdgeTable> {
+pub(super) fn table(mesh: &Mesh, cells: &Cells, points: usize) -> Result<EdgeTable> {
     let tags: Vec<u64> = (1..=cells.len() as u64).collect();
     EdgeTable::new(cells, points, &tags).map_err(|fault| Error::mesh(&mesh.file, fault.what, fault.cure))
 }

@@ -90,6 +90,26 @@ impl BoundLoad {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))
     }
 
+    /// True if it has no nodal force at any of the load levels of a step.
+    pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
+        let both = self.values.each_ref().map(Quantity::constant);
+        if let Target::Body { factor: 0.0, .. } = self.target {
+            return Ok(true);
+        }
+        if let [Some(x), Some(y)] = both {
+            return Ok(x == 0.0 && y == 0.0);
+        }
+        let levels = if self.follows_load_factor() { 1..=increments } else { increments..=increments };
+        for level in levels {
+            let mut force = vec![0.0; model.dofs()];
+            self.add(model, level as f64 / increments as f64, &mut force)?;
+            if force.iter().any(|force| *force != 0.0) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Adds its nodal forces at a load level.
     pub(super) fn add(&self, model: &Model, load_factor: f64, force: &mut [f64]) -> Result<()> {
         let [x, y] = &self.values;
