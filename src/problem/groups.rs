@@ -3,7 +3,7 @@
 use crate::assembly::Model;
 use crate::error::{Error, Result, name_cure};
 use crate::mesh::{Edge, Group};
-use crate::scene::{Scene, split_group};
+use crate::scene::{Scene, Subdomain, split_group};
 
 /// A group of a body, or the whole body; one that is no use, or the name of several, is refused.
 pub(super) fn find<'a>(
@@ -18,7 +18,7 @@ pub(super) fn find<'a>(
             let what = format!("\"{name}\" is the name of a {}", kinds.join(" and of a "));
             Err(scene.source.refuse(path, what, "give each physical group a name of its own"))
         }
-        (_, Some(fault @ Group::Unusable { .. })) => Err(refusal(scene, path, name, fault)),
+        (body, Some(fault @ Group::Unusable { .. })) => Err(refusal(scene, path, (body, name), fault)),
         found => Ok(found),
     }
 }
@@ -41,7 +41,7 @@ fn named<'a>(
         Some(found) => Ok((body, Some(found))),
         None => {
             let subdomain = &scene.subdomains[body];
-            let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
+            let file = file(subdomain);
             let place = match &subdomain.surface {
                 Some(surface) => format!("on surface \"{surface}\" of {file}"),
                 None => format!("in {file}"),
@@ -52,14 +52,20 @@ fn named<'a>(
     }
 }
 
-/// The refusal of a group that is no use.
-pub(super) fn refusal(scene: &Scene, path: &[&str], name: &str, group: &Group) -> Error {
+/// The refusal of a group, of a body, that is no use.
+pub(super) fn refusal(scene: &Scene, path: &[&str], (body, name): (usize, &str), group: &Group) -> Error {
     match group {
         Group::Unusable { what, cure, .. } => {
-            scene.source.refuse(path, format!("\"{name}\" is no use: {what}"), cure.clone())
+            let what = format!("\"{name}\" is no use: {what} in {}", file(&scene.subdomains[body]));
+            scene.source.refuse(path, what, cure.clone())
         }
         other => scene.source.refuse(path, format!("\"{name}\" is a {}", other.kind()), "name another"),
     }
+}
+
+/// The file of a subdomain, as the scene names it.
+pub(super) fn file(subdomain: &Subdomain) -> &str {
+    subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str)
 }
 
 /// A group that must be a curve.
@@ -74,7 +80,7 @@ pub(super) fn curve<'a>(
     if let Some(curve) = all.iter().find(|group| group.kind() == "curve") {
         return match curve {
             Group::Edges(edges) => Ok((body, edges)),
-            fault => Err(refusal(scene, path, name, fault)),
+            fault => Err(refusal(scene, path, (body, name), fault)),
         };
     }
     let kind = group.map_or("body", Group::kind);
@@ -96,7 +102,7 @@ pub(super) fn points<'a>(
     let all = group.map_or(&[][..], Group::each);
     match all.iter().find(|group| group.kind() == "point") {
         Some(Group::Points(points)) => Ok((body, points)),
-        Some(fault) => Err(refusal(scene, path, name, fault)),
+        Some(fault) => Err(refusal(scene, path, (body, name), fault)),
         None => {
             let kind = group.map_or("body", Group::kind);
             let what = format!("a force on \"{name}\", which is a {kind}");

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use rayon::prelude::*;
 
-use super::groups::refusal;
+use super::groups::{file, refusal};
 use crate::error::{Code, Result, Warning, name_cure};
 use crate::mesh::{Group, Mesh};
 use crate::scene::Scene;
@@ -59,12 +59,15 @@ pub fn subdomain_meshes(
 /// The cells of the physical surface that a subdomain consists of.
 fn surface_cells<'a>(scene: &Scene, name: &str, mesh: &'a Mesh, surface: &str) -> Result<&'a [usize]> {
     let (path, subdomain) = (["subdomains", name, "surface"], &scene.subdomains[name]);
-    let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
+    let file = file(subdomain);
     let is_surface = |group: &&Group| group.kind() == "surface";
     let found = mesh.groups.get(surface);
     let what = match found.and_then(|group| group.each().iter().find(is_surface)) {
         Some(Group::Cells(cells)) => return Ok(cells),
-        Some(fault) => return Err(refusal(scene, &path, surface, fault)),
+        Some(fault) => {
+            let body = scene.subdomains.get_index_of(name).unwrap_or(0);
+            return Err(refusal(scene, &path, (body, surface), fault));
+        }
         None => match found {
             Some(other) => format!("\"{surface}\" of {file} is a {}, not a surface", other.kind()),
             None => format!("no surface \"{surface}\" in {file}"),
