@@ -39,8 +39,8 @@ fn the_table_has_every_number_of_a_joint() {
 fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
     let folder = squares();
     let checks = folder.path().join("out/check");
-    std::fs::create_dir_all(&checks).unwrap();
-    std::fs::write(checks.join("old.vtu"), "of another scene").unwrap();
+    assert!(midplane(folder.path(), &["check", ".", "-o", "out", "--plot"]).status.success());
+    std::fs::rename(checks.join("joint.vtu"), checks.join("old.vtu")).unwrap(); // as of another scene
     let output = midplane(folder.path(), &["check", ".", "-o", "out", "--plot"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut names: Vec<_> =

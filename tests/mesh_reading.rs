@@ -155,35 +155,52 @@ fn what_gmsh_would_not_have_saved_is_left_out_with_its_points() {
     close(area(&mesh), 1.0);
 }
 
+/// The fault of a group of a mesh that is read all the same.
+fn fault(text: &MeshText, name: &str) -> String {
+    match &read(text).groups[name] {
+        Group::Unusable { what, cure, .. } => format!("{what}; {cure}"),
+        other => panic!("{name} is usable: {other:?}"),
+    }
+}
+
 #[test]
-fn groups_with_one_name_are_refused_naming_both() {
+fn groups_of_one_name_are_told_by_their_dimension() {
     let mut text = strip();
     text.names[1].2 = "body".into();
-    assert!(refusal(&text).contains("physical curve 2 and physical surface 1 are both called \"body\""));
+    let mesh = read(&text);
+    let [Group::Edges(edges), Group::Cells(cells)] = mesh.groups["body"].each() else {
+        panic!("{:?}", mesh.groups["body"])
+    };
+    assert_eq!((edges.len(), cells.len()), (2, 3));
     text.names[1] = (2, 1, "other".into());
-    assert!(refusal(&text).contains("physical surface 1 is called \"body\" and \"other\""));
-    text.names = vec![(1, 2, "3".into())];
-    assert!(refusal(&text).contains("are both called \"3\""));
+    for name in ["body", "other"] {
+        assert!(fault(&text, name).contains("physical surface 1 is called \"other\" and \"body\""));
+    }
+    text = strip();
+    text.names.push((1, 3, "bottom".into()));
+    assert!(
+        fault(&text, "bottom").contains("physical curve 2 and physical curve 3 are both called \"bottom\"")
+    );
 }
 
 #[test]
-fn groups_without_elements_are_refused() {
+fn groups_without_elements_are_unusable() {
     let mut text = strip();
     text.names.push((1, 9, "top".into()));
-    assert!(refusal(&text).contains("physical curve \"top\" has no elements"));
+    assert!(fault(&text, "top").contains("physical curve \"top\" has no elements"));
     text.names[3] = (3, 9, "solid".into());
-    assert!(refusal(&text).contains("physical volume \"solid\""));
+    assert!(fault(&text, "solid").contains("physical volume \"solid\""));
 }
 
 #[test]
-fn curves_and_points_that_hang_on_no_cell_are_refused() {
+fn curves_and_points_that_hang_on_no_cell_are_unusable() {
     let mut text = strip();
     text.blocks[1].elements[0].1 = vec![1, 5];
-    assert!(refusal(&text).contains("physical curve \"bottom\": element 2 lies on no cell"));
+    assert!(fault(&text, "bottom").contains("physical curve \"bottom\": element 2 lies on no cell"));
     let mut text = strip();
     text.nodes.push((7, [5.0, 0.0, 0.0]));
     text.blocks[0].elements[0].1 = vec![7];
-    assert!(refusal(&text).contains("physical point \"corner\": node 7 lies on no cell"));
+    assert!(fault(&text, "corner").contains("physical point \"corner\": node 7 lies on no cell"));
     text.blocks[0].elements[0].1 = vec![1];
     assert_eq!(read(&text).points.len(), 6);
 }
@@ -192,10 +209,12 @@ fn curves_and_points_that_hang_on_no_cell_are_refused() {
 fn repeated_members_are_refused() {
     let mut text = strip();
     text.blocks[1].elements[1].1 = vec![2, 1];
-    assert!(refusal(&text).contains("physical curve \"bottom\" holds the edge of elements 2 and 3 twice"));
+    assert!(
+        fault(&text, "bottom").contains("physical curve \"bottom\" holds the edge of elements 2 and 3 twice")
+    );
     let mut text = strip();
     text.blocks[0].elements.push((9, vec![1]));
-    assert!(refusal(&text).contains("physical point \"corner\" holds the point at [0.0, 0.0] twice"));
+    assert!(fault(&text, "corner").contains("physical point \"corner\" holds the point at [0.0, 0.0] twice"));
     let mut text = strip();
     text.blocks[3].elements.push((9, vec![5, 2, 3]));
     assert!(refusal(&text).contains("elements 5 and 9 lie on the same side of one edge"));

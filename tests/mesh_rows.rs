@@ -29,10 +29,10 @@ fn b30_groups_that_contradict_each_other_are_refused_naming_both() {
     let scene = |from: &str, to: &str| changed(SCENE, from, to);
     for (case, geo, scene, expected) in [
         (
-            "one name in two dimensions",
+            "one name in two dimensions, where both could be meant",
             upper("\"corner\"", "\"body\""),
-            SCENE.into(),
-            vec!["upper.geo: physical point ", " and physical surface ", " are both called \"body\""],
+            scene("\"lower.corner\": [\"x\"]", "\"lower.corner\": [\"x\"], \"upper.body\": [\"x\"]"),
+            vec!["steps.0.fix.upper.body: \"upper.body\" is the name of a point and of a surface; give each"],
         ),
         (
             "one name twice",

@@ -266,3 +266,50 @@ fn the_stored_schema_is_that_of_the_program() {
         "run: midplane schema study > geo/study.schema.json"
     );
 }
+
+/// A program that states a version and meshes as gmsh does.
+fn mesher(strip: &Strip, version: &str) -> String {
+    let (draft, program) = (strip.path("draft"), strip.path(&format!("gmsh-{version}")));
+    let text =
+        format!("#!/bin/sh\nif [ \"$1\" = --version ]; then echo {version}; exit 0; fi\nexec gmsh \"$@\"\n");
+    std::fs::write(&draft, text).unwrap();
+    // written by another process: while a program is open for writing here, no thread may start it
+    assert!(Command::new("install").args(["-m", "755"]).args([&draft, &program]).status().unwrap().success());
+    program.display().to_string()
+}
+
+/// An outcome stands as long as its mesh would: what the .geo includes and the mesher's version decide it too.
+#[test]
+fn outcomes_are_as_old_as_their_meshes() {
+    let strip = Strip::new(&format!(
+        r#"{{ "axes": {{ "edges": {{ "parameter": "lower.edges", "values": [4, 6] }} }}, "measures": {{ {ENERGY} }} }}"#
+    ));
+    let [one, other] = ["4.8.4", "9.9.9"].map(|version| mesher(&strip, version));
+    let there = |gmsh: &str| strip.study("out", &["--gmsh", gmsh]).contains("2 of 2 points are there");
+    assert!(!there(&one) && there(&one));
+    assert!(!there(&other) && there(&other), "another version meshes anew");
+    let geo = std::fs::read_to_string(strip.path("upper.geo")).unwrap();
+    std::fs::write(strip.path("upper.geo"), format!("Include \"note.geo\";\n{geo}")).unwrap();
+    std::fs::write(strip.path("note.geo"), "// one\n").unwrap();
+    assert!(!there(&other) && there(&other));
+    std::fs::write(strip.path("note.geo"), "// two\n").unwrap();
+    assert!(!there(&other) && there(&other), "an included file has changed");
+    // what comes from elsewhere may be another thing every time
+    std::fs::write(strip.path("upper.geo"), format!("SystemCall \"true\";\n{geo}")).unwrap();
+    assert!(!there(&other) && !there(&other));
+}
+
+#[test]
+fn an_equals_sign_in_a_measure_is_refused_with_the_way_out() {
+    let strip =
+        Strip::new(r#"{ "measures": { "u": { "take": "last", "of": "upper.a=b.displacement_y" } } }"#);
+    let output = strip.midplane(&["study", "study.json", "-o", "out"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains(
+            "measures.u.of: \"=\" in the measure \"u\" of \"upper.a=b.displacement_y\"; give it a column"
+        ),
+        "{message}"
+    );
+}

@@ -33,11 +33,19 @@ pub enum Code {
     HardlyHeld,
     /// An increment of the load level that left the path of equilibria.
     Leapt,
+    /// A load that is zero everywhere.
+    NoLoad,
+    /// A key that the scene cannot use.
+    IdleKey,
+    /// Boundaries of one subdomain that lie on each other and share no nodes.
+    Unconnected,
+    /// Subdomains that touch and that no interface joins.
+    Unjoined,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 13] = [
+    pub const ALL: [Code; 17] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -51,6 +59,10 @@ impl Code {
         Code::Locking,
         Code::HardlyHeld,
         Code::Leapt,
+        Code::NoLoad,
+        Code::IdleKey,
+        Code::Unconnected,
+        Code::Unjoined,
     ];
 }
 

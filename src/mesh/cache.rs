@@ -9,17 +9,18 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::gmsh::{Gmsh, options};
+use super::gmsh::{Gmsh, Task};
+use super::mirror::completed;
 use super::read::from_bytes;
 use super::sources::Sources;
 use crate::error::{Error, Result};
 
-/// A geometry to be meshed.
+/// A geometry to be meshed, or a mesh of an earlier format to be converted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Job {
     /// The first part of the file name: the subdomain, or what several share.
     pub name: String,
-    /// The .geo file.
+    /// The .geo file, or an .msh file that is not MSH 4.1.
     pub geo: PathBuf,
     /// Values for names that the .geo declares with DefineConstant.
     pub parameters: Vec<(String, f64)>,
@@ -49,6 +50,19 @@ pub fn parameters(geo: &Path) -> Result<Vec<(String, Option<f64>)>> {
     Ok(Sources::read(&geo)?.declared)
 }
 
+/// Digest of a .geo and all it includes, or of a mesh file; none if what gmsh makes of it depends on more than files.
+pub fn digest(file: &Path) -> Result<Option<String>> {
+    let file = std::path::absolute(file).map_err(Error::io("read", file))?;
+    let sources = Sources::read(&file)?;
+    let mut hash = Sha256::new();
+    sources.digest(&mut |part: &[u8]| {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    });
+    let digits = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(sources.closed.then_some(digits))
+}
+
 fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     let geo = std::path::absolute(&job.geo).map_err(Error::io("read", &job.geo))?;
     let sources = Sources::read(&geo)?;
@@ -62,7 +76,8 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
             ));
         }
     }
-    let key = key(&sources, job, gmsh.version()?);
+    let task = Task { file: &geo, parameters: &job.parameters, conversion: sources.is_mesh };
+    let key = key(&sources, &task, gmsh.version()?);
     let path = cache.join(format!("{}-{key}.msh", file_name(&job.name)));
     if sources.closed && path.is_file() {
         return Ok(Meshed { path, reused: true });
@@ -73,7 +88,9 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
         .prefix(".gmsh-")
         .tempdir_in(&cache)
         .map_err(Error::io("write to", &cache))?;
-    let written = gmsh.mesh(&geo, &job.parameters, folder.path())?;
+    let mirror = folder.path().join("mirror");
+    let source = completed(&sources, &geo, &mirror)?;
+    let written = gmsh.mesh(&task, &source, &mirror, folder.path())?;
     let bytes = std::fs::read(&written).map_err(Error::io("read", &written))?;
     from_bytes(&job.geo, &bytes)?;
     std::fs::File::open(&written).and_then(|file| file.sync_all()).map_err(Error::io("write", &written))?;
@@ -82,21 +99,18 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
 }
 
 /// 12 hex digits that change with whatever changes the mesh.
-fn key(sources: &Sources, job: &Job, version: &str) -> String {
+fn key(sources: &Sources, task: &Task, version: &str) -> String {
     let mut hash = Sha256::new();
     let mut add = |part: &[u8]| {
         hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other
         hash.update(part);
     };
     add(version.as_bytes());
-    for option in options(&job.parameters) {
+    for option in task.options() {
         add(option.as_encoded_bytes());
     }
-    for (path, content) in &sources.files {
-        add(path.file_name().unwrap_or_default().as_encoded_bytes());
-        add(&[u8::from(content.is_some())]);
-        add(content.as_deref().unwrap_or_default());
-    }
+    add(task.afterwards().as_bytes());
+    sources.digest(&mut add);
     hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
 }
 

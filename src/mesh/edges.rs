@@ -104,7 +104,7 @@ impl EdgeTable {
 }
 
 /// Start, end and mid-node of edge `e` of cell `c`; the end again on linear cells.
-fn edge(cells: &Cells, c: usize, e: usize) -> [usize; 3] {
+pub(super) fn edge(cells: &Cells, c: usize, e: usize) -> [usize; 3] {
     let (shape, nodes) = (cells.shapes[c], cells.nodes(c));
     let [start, end, mid] = shape.edge(e);
     [nodes[start], nodes[end], nodes[if shape.is_quadratic() { mid } else { end }]]

@@ -7,6 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+use super::log;
 use crate::error::{Error, Result};
 
 /// The mesher and how long it may take.
@@ -19,12 +20,19 @@ pub struct Gmsh {
     version: OnceLock<String>,
 }
 
-/// Values handed to a .geo with -setnumber.
-pub(super) type Parameters = [(String, f64)];
+/// A run of gmsh.
+#[derive(Debug)]
+pub(super) struct Task<'a> {
+    /// The .geo, or the .msh of an earlier format; absolute, as the user has it.
+    pub(super) file: &'a Path,
+    /// Values handed to a .geo with -setnumber.
+    pub(super) parameters: &'a [(String, f64)],
+    /// True for a file that holds a mesh already.
+    pub(super) conversion: bool,
+}
 
 /// Settings that the reader relies on, and one thread so that the mesh does not depend on their number.
-const SETTINGS: [&str; 16] = [
-    "-2",
+const SETTINGS: [&str; 12] = [
     "-format",
     "msh41",
     "-bin",
@@ -37,12 +45,19 @@ const SETTINGS: [&str; 16] = [
     "-setnumber",
     "Mesh.Renumber",
     "1",
-    "-setnumber",
-    "Mesh.SaveAll",
-    "0",
 ];
-/// Lines of gmsh's output that an error quotes.
-const TAIL: usize = 12;
+/// The same settings as gmsh reads them after the .geo: whatever the .geo sets, these hold.
+const AFTERWARDS: &str = "\
+Mesh.Format = 1;
+Mesh.MshFileVersion = 4.1;
+Mesh.Binary = 1;
+Mesh.SaveParametric = 0;
+Mesh.Renumber = 1;
+Mesh.PartitionSplitMeshFiles = 0;
+General.NumThreads = 1;
+Mesh.MaxNumThreads1D = 1;
+Mesh.MaxNumThreads2D = 1;
+";
 /// How late the end of gmsh may be noticed.
 const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
@@ -55,7 +70,11 @@ impl Default for Gmsh {
 impl Gmsh {
     /// A mesher by name or path, with a time limit for each run.
     pub fn new(program: impl Into<PathBuf>, limit: Duration) -> Gmsh {
-        Gmsh { program: program.into(), limit, version: OnceLock::new() }
+        let program: PathBuf = program.into();
+        // gmsh runs beside its .geo: a path, unlike a bare name, is relative to where midplane runs
+        let is_path = program.components().count() > 1;
+        let program = if is_path { std::path::absolute(&program).unwrap_or(program) } else { program };
+        Gmsh { program, limit, version: OnceLock::new() }
     }
 
     /// The version gmsh states; asked once.
@@ -70,24 +89,32 @@ impl Gmsh {
             Some(version) if ended.status.success() => {
                 Ok(self.version.get_or_init(|| version.trim().to_string()))
             }
-            _ => Err(self.broken(format!("--version {}", outcome(ended.status)), "is it gmsh?")),
+            _ => Err(self.broken(format!("--version {}", log::outcome(ended.status)), "is it gmsh?")),
         }
     }
 
-    /// Meshes `geo` (an absolute path) into `folder`; returns the file written there.
-    pub(super) fn mesh(&self, geo: &Path, parameters: &Parameters, folder: &Path) -> Result<PathBuf> {
-        let mesh = folder.join("mesh.msh");
-        let mut arguments = vec![geo.as_os_str().to_owned()];
-        arguments.extend(options(parameters));
+    /// Writes the mesh of a task into `folder` and returns its file; gmsh reads `source`, which is the file of the task
+    /// or a copy of it in `mirror`.
+    pub(super) fn mesh(&self, task: &Task, source: &Path, mirror: &Path, folder: &Path) -> Result<PathBuf> {
+        let (mesh, settings) = (folder.join("mesh.msh"), folder.join("settings.geo"));
+        std::fs::write(&settings, task.afterwards()).map_err(Error::io("write", &settings))?;
+        let mut arguments = vec![source.as_os_str().to_owned(), settings.as_os_str().to_owned()];
+        arguments.extend(task.options());
         arguments.extend(["-o".into(), mesh.as_os_str().to_owned()]);
-        let ended = self.start(geo.parent().unwrap_or(Path::new("/")), folder, &arguments)?;
+        let file = task.file;
+        let ended = self.start(file.parent().unwrap_or(Path::new("/")), folder, &arguments);
+        let mut ended = ended.map_err(|error| of_file(file, error))?;
+        let mirror = mirror.display().to_string();
+        ended.lines.iter_mut().for_each(|line| *line = line.replace(&mirror, ""));
         let complained = ended.lines.iter().any(|line| line.starts_with("Error   :"));
         if ended.status.code().is_none() {
-            return Err(self.broken(outcome(ended.status), "was it short of memory?"));
+            let what = format!("{} while \"{}\"", log::outcome(ended.status), log::stage(&ended.lines));
+            return Err(of_file(file, self.broken(what, log::crash_help(ended.status))));
         }
-        let refused = |outcome: String| Error::Gmsh { file: geo.into(), outcome, tail: tail(&ended.lines) };
+        let refused =
+            |outcome: String| Error::Gmsh { file: file.into(), outcome, tail: log::quoted(&ended.lines) };
         if !ended.status.success() {
-            return Err(refused(outcome(ended.status)));
+            return Err(refused(log::outcome(ended.status)));
         }
         if complained {
             return Err(refused("reported errors, though it ended with exit code 0".into()));
@@ -173,38 +200,35 @@ fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus
     }
 }
 
-/// All options of a run but the file names.
-pub(super) fn options(parameters: &Parameters) -> Vec<OsString> {
-    let mut options: Vec<OsString> = SETTINGS.iter().map(OsString::from).collect();
-    for (name, value) in parameters {
-        // {:e} prints the shortest text that reads back as the same number
-        options.extend(["-setnumber".into(), name.into(), format!("{value:e}").into()]);
+impl Task<'_> {
+    /// All options of the run but the file names.
+    pub(super) fn options(&self) -> Vec<OsString> {
+        let mut options: Vec<OsString> = vec![if self.conversion { "-save".into() } else { "-2".into() }];
+        options.extend(SETTINGS.iter().map(OsString::from));
+        for (name, value) in self.parameters {
+            // {:e} prints the shortest text that reads back as the same number
+            options.extend(["-setnumber".into(), name.into(), format!("{value:e}").into()]);
+        }
+        options
     }
-    options
+
+    /// The settings that gmsh reads last. All that a mesh file holds is kept; of a geometry, what groups hold.
+    pub(super) fn afterwards(&self) -> String {
+        format!("{AFTERWARDS}Mesh.SaveAll = {};\n", u8::from(self.conversion))
+    }
+}
+
+/// A failure of the program, told of a file.
+fn of_file(file: &Path, error: Error) -> Error {
+    match error {
+        Error::Program { program, what, cure } => {
+            Error::Program { program: file.display().to_string(), what: format!("{program} {what}"), cure }
+        }
+        other => other,
+    }
 }
 
 struct Ended {
     status: ExitStatus,
     lines: Vec<String>,
-}
-
-/// "ended with exit code 1", "was killed by signal 9".
-fn outcome(status: ExitStatus) -> String {
-    use std::os::unix::process::ExitStatusExt;
-    match (status.code(), status.signal()) {
-        (Some(code), _) => format!("ended with exit code {code}"),
-        (None, Some(signal)) => format!("was killed by signal {signal}"),
-        (None, None) => "ended without an exit code".into(),
-    }
-}
-
-/// What gmsh said that matters: its errors if there are any, else its last lines.
-fn tail(lines: &[String]) -> Vec<String> {
-    let loud = |line: &&String| line.starts_with("Error") || line.starts_with("Warning");
-    let mut kept: Vec<&String> = lines.iter().filter(loud).collect();
-    if kept.is_empty() {
-        kept = lines.iter().collect();
-    }
-    let from = kept.len().saturating_sub(TAIL);
-    kept[from..].iter().map(|line| (*line).clone()).collect()
 }

@@ -11,14 +11,13 @@ type Found<T> = Result<T, Fault>;
 /// Number of a node that no cell uses.
 pub(super) const UNUSED: u32 = u32::MAX;
 
-/// The groups of the mesh by name; `numbers` leads from the nodes of the file to the points of the mesh.
+/// The groups of the mesh by name, those with a fault among them; `numbers` leads from the nodes of the file to the points of the mesh.
 pub(super) fn gather(
     content: &Content,
     cells: &Cells,
     edges: &EdgeTable,
     numbers: &[u32],
 ) -> Found<IndexMap<String, Group>> {
-    distinct_names(&content.declared)?;
     let mut members = vec![Vec::new(); content.declared.len()];
     let mut order: Vec<usize> = (0..content.declared.len()).collect();
     let key = |group: &usize| (content.declared[*group].dim, content.declared[*group].tag);
@@ -30,40 +29,47 @@ pub(super) fn gather(
             }
         }
     }
-    let mut groups = IndexMap::new();
-    for (declared, members) in content.declared.iter().zip(members) {
-        if members.is_empty() {
-            return Err(declared.empty());
-        }
+    let mut groups: IndexMap<String, Group> = IndexMap::new();
+    for (i, (declared, members)) in content.declared.iter().zip(members).enumerate() {
         let group = match declared.dim {
-            0 => Group::Points(points(declared, &members, content, numbers)?),
-            1 => Group::Edges(curve(declared, &members, content, cells, edges, numbers)?),
-            _ => Group::Cells(ascending(members)),
+            _ if members.is_empty() => Err(declared.empty()),
+            0 => points(declared, &members, content, numbers).map(Group::Points),
+            1 => curve(declared, &members, content, cells, edges, numbers).map(Group::Edges),
+            _ => Ok(Group::Cells(ascending(members))),
         };
-        groups.insert(declared.name.clone(), group);
+        let group = clash(&content.declared, i).map_or(group, Err);
+        // a group with a fault is no reason to refuse a mesh whose scene does not name it
+        let kind = KINDS[declared.dim];
+        let group = group.unwrap_or_else(|Fault { what, cure }| Group::Unusable { kind, what, cure });
+        match groups.get_mut(&declared.name) {
+            None => drop(groups.insert(declared.name.clone(), group)),
+            Some(Group::Namesakes(all)) => all.push(group),
+            Some(one) if one.kind() != group.kind() => *one = Group::Namesakes(vec![one.clone(), group]),
+            Some(_) => {} // of two curves of one name the first says that there are two
+        }
     }
     Ok(groups)
 }
 
-fn distinct_names(declared: &[Declared]) -> Found<()> {
+/// The fault of a group that shares its name with another of its dimension, or has two names.
+fn clash(declared: &[Declared], group: usize) -> Option<Fault> {
+    let one = &declared[group];
     let title = |group: &Declared| format!("physical {} {}", KINDS[group.dim], group.tag);
-    let mut by_name: Vec<&Declared> = declared.iter().collect();
-    by_name.sort_by(|a, b| a.name.cmp(&b.name));
-    if let Some(pair) = by_name.windows(2).find(|pair| pair[0].name == pair[1].name) {
-        return Err(Fault {
-            what: format!("{} and {} are both called \"{}\"", title(pair[0]), title(pair[1]), pair[0].name),
+    let others = || declared.iter().enumerate().filter(|(i, other)| *i != group && other.dim == one.dim);
+    if let Some((i, other)) = others().find(|(_, other)| other.name == one.name) {
+        let [first, second] = if i < group { [other, one] } else { [one, other] };
+        return Some(Fault {
+            what: format!("{} and {} are both called \"{}\"", title(first), title(second), one.name),
             cure: "give each physical group a name of its own".into(),
         });
     }
-    by_name.sort_by_key(|group| (group.dim, group.tag));
-    let same = by_name.windows(2).find(|pair| (pair[0].dim, pair[0].tag) == (pair[1].dim, pair[1].tag));
-    match same {
-        Some(pair) => Err(Fault {
-            what: format!("{} is called \"{}\" and \"{}\"", title(pair[0]), pair[0].name, pair[1].name),
+    others().find(|(_, other)| other.tag == one.tag).map(|(i, other)| {
+        let [first, second] = if i < group { [other, one] } else { [one, other] };
+        Fault {
+            what: format!("{} is called \"{}\" and \"{}\"", title(one), first.name, second.name),
             cure: "give each physical group one name".into(),
-        }),
-        None => Ok(()),
-    }
+        }
+    })
 }
 
 fn ascending(mut members: Vec<usize>) -> Vec<usize> {

@@ -2,20 +2,23 @@
 //!
 //! Everything past this room may rely on: every index is in range, every point is finite and belongs to a cell, every
 //! cell counts its nodes counter-clockwise and has a positive Jacobian at its nodes and integration points, no two
-//! cells lie on the same side of an edge or disagree about its mid-node, every group has members and none twice, every
+//! cells lie on the same side of an edge or disagree about its mid-node, every group that is usable has members and none twice, every
 //! edge of a curve group knows the cell it bounds and runs with that cell on its left.
 //!
 //! From a geometry to a mesh: `mesh_all` (`cache`) asks what a .geo consists of (`sources`), runs `gmsh`, and keeps the
 //! file; `read` takes its bytes apart (`msh`) and builds `cells`, `edges` and `groups`. Several subdomains may share a
-//! mesh, each a `part` of it.
+//! mesh, each a `part` of it. Files of earlier formats go through gmsh as a geometry does.
 
 mod cache;
 mod cells;
 mod edges;
 mod gmsh;
 mod groups;
+mod log;
+mod mirror;
 mod msh;
 mod part;
+mod pieces;
 mod quality;
 mod read;
 mod sources;
@@ -25,10 +28,11 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 
-pub use cache::{Job, Meshed, mesh_all, parameters};
+pub use cache::{Job, Meshed, digest, mesh_all, parameters};
 pub use gmsh::Gmsh;
-pub use read::{from_bytes, read};
-pub use touch::{Touch, touching};
+pub use pieces::Pieces;
+pub use read::{from_bytes, is_earlier_format, read};
+pub use touch::{Touch, coinciding, touching};
 
 use crate::shape::Shape;
 
@@ -67,6 +71,17 @@ pub enum Group {
     Edges(Vec<Edge>),
     /// Physical surfaces: cell numbers, ascending.
     Cells(Vec<usize>),
+    /// Groups of one name and different dimensions: whoever asks for a curve means the curve.
+    Namesakes(Vec<Group>),
+    /// A group with a fault, which is told where the group is used.
+    Unusable {
+        /// "point", "curve", "surface" or "volume".
+        kind: &'static str,
+        /// The fault, naming the group.
+        what: String,
+        /// The way out.
+        cure: String,
+    },
 }
 
 /// An edge of a physical curve.
@@ -114,6 +129,8 @@ impl Group {
             Group::Points(points) => points.clone(),
             Group::Edges(edges) => edges.iter().flat_map(|edge| edge.nodes).collect(),
             Group::Cells(cells) => cells.iter().flat_map(|&c| mesh.cells.nodes(c).iter().copied()).collect(),
+            Group::Namesakes(all) => all.iter().flat_map(|group| group.points(mesh)).collect(),
+            Group::Unusable { .. } => Vec::new(),
         };
         points.sort_unstable();
         points.dedup();
@@ -125,15 +142,27 @@ impl Group {
         match self {
             Group::Points(members) | Group::Cells(members) => members.is_empty(),
             Group::Edges(edges) => edges.is_empty(),
+            Group::Namesakes(all) => all.is_empty(),
+            Group::Unusable { .. } => false,
         }
     }
 
-    /// "point", "curve" or "surface".
+    /// The groups of this name, one of each dimension.
+    pub fn each(&self) -> &[Group] {
+        match self {
+            Group::Namesakes(all) => all,
+            one => std::slice::from_ref(one),
+        }
+    }
+
+    /// "point", "curve", "surface" or "volume"; the name of several has no kind.
     pub fn kind(&self) -> &'static str {
         match self {
             Group::Points(_) => "point",
             Group::Edges(_) => "curve",
             Group::Cells(_) => "surface",
+            Group::Namesakes(_) => "name of several groups",
+            Group::Unusable { kind, .. } => kind,
         }
     }
 }

@@ -34,13 +34,7 @@ impl Mesh {
             cells.push(self.cells.shapes[old], &nodes);
         }
         let edges = table(self, &cells, points.len())?;
-        let restrict = |group: &Group| match group {
-            Group::Points(all) => Group::Points(present(all, &point)),
-            Group::Cells(all) => Group::Cells(present(all, &cell)),
-            Group::Edges(all) => {
-                Group::Edges(all.iter().filter_map(|e| own(e, &point, &cells, &edges)).collect())
-            }
-        };
+        let restrict = |group: &Group| restrict(group, &point, &cell, &cells, &edges);
         let groups = self.groups.iter().map(|(name, group)| (name.clone(), restrict(group)));
         let groups = groups.filter(|(_, group)| !group.is_empty()).collect();
         let corners = present(&self.corners, &point);
@@ -54,7 +48,7 @@ impl Mesh {
 }
 
 /// The edges of the cells; a sound mesh has no faults, but a file is no place to rely on that.
-fn table(mesh: &Mesh, cells: &Cells, points: usize) -> Result<EdgeTable> {
+pub(super) fn table(mesh: &Mesh, cells: &Cells, points: usize) -> Result<EdgeTable> {
     let tags: Vec<u64> = (1..=cells.len() as u64).collect();
     EdgeTable::new(cells, points, &tags).map_err(|fault| Error::mesh(&mesh.file, fault.what, fault.cure))
 }
@@ -64,6 +58,21 @@ fn present(members: &[usize], number: &[usize]) -> Vec<usize> {
     let mut found: Vec<usize> = members.iter().map(|&old| number[old]).filter(|&new| new != ABSENT).collect();
     found.sort_unstable();
     found
+}
+
+/// The members of a group that are in the part.
+fn restrict(group: &Group, point: &[usize], cell: &[usize], cells: &Cells, edges: &EdgeTable) -> Group {
+    match group {
+        Group::Points(all) => Group::Points(present(all, point)),
+        Group::Cells(all) => Group::Cells(present(all, cell)),
+        Group::Edges(all) => Group::Edges(all.iter().filter_map(|e| own(e, point, cells, edges)).collect()),
+        Group::Namesakes(all) => {
+            let parts = all.iter().map(|group| restrict(group, point, cell, cells, edges));
+            let mut parts: Vec<Group> = parts.filter(|group| !group.is_empty()).collect();
+            if parts.len() == 1 { parts.remove(0) } else { Group::Namesakes(parts) }
+        }
+        fault @ Group::Unusable { .. } => fault.clone(),
+    }
 }
 
 /// An edge as the part has it: beside one of its own cells.

@@ -1,5 +1,6 @@
 //! From an MSH file to a `Mesh`: every promise of this room is checked here.
 
+use std::io::Read;
 use std::path::Path;
 
 use super::cells::orient;
@@ -11,6 +12,8 @@ use crate::error::{Error, Result};
 
 /// |z| up to this part of the mesh's extent counts as zero.
 const ON_PLANE: f64 = 1e-9;
+/// Bytes that hold the version of a mesh file.
+const HEAD: usize = 64;
 
 /// Reads an MSH 4.1 file, text or binary.
 pub fn read(path: &Path) -> Result<Mesh> {
@@ -18,6 +21,22 @@ pub fn read(path: &Path) -> Result<Mesh> {
     let content = msh::content(&bytes).map_err(at(path))?;
     drop(bytes); // the arrays below take its place in memory
     build(path, content).map_err(at(path))
+}
+
+/// True for a file of MSH 2 or 4.0, which gmsh can convert.
+pub fn is_earlier_format(path: &Path) -> Result<bool> {
+    let mut start = [0; HEAD];
+    let mut file = std::fs::File::open(path).map_err(Error::io("read", path))?;
+    let mut length = 0;
+    while length < HEAD {
+        match file.read(&mut start[length..]).map_err(Error::io("read", path))? {
+            0 => break,
+            more => length += more,
+        }
+    }
+    let text = String::from_utf8_lossy(&start[..length]);
+    let version = text.strip_prefix("$MeshFormat").and_then(|rest| rest.split_whitespace().next());
+    Ok(version.is_some_and(|version| version.starts_with('2') || matches!(version, "4" | "4.0")))
 }
 
 /// Reads the bytes of an MSH 4.1 file; `path` is for messages.

@@ -11,6 +11,8 @@ pub(super) struct Sources {
     pub(super) files: Vec<(PathBuf, Option<Vec<u8>>)>,
     /// False if what gmsh makes of it depends on more than these files.
     pub(super) closed: bool,
+    /// True if the file is no geometry but a mesh.
+    pub(super) is_mesh: bool,
     /// Every name in it.
     mentioned: Vec<String>,
     /// Names it declares with DefineConstant, and their values where those are plain numbers.
@@ -21,6 +23,8 @@ pub(super) struct Sources {
 
 /// Commands and options whose value is the name of a file.
 const READING: [&str; 4] = ["Include", "Merge", "ShapeFromFile", "FileName"];
+/// The first bytes of a mesh file.
+const MESH: &[u8] = b"$MeshFormat";
 /// Commands whose result does not come from the files alone.
 const OUTSIDE: [&str; 8] = [
     "System",
@@ -37,8 +41,12 @@ impl Sources {
     /// Reads a .geo file and, nested, all it includes. `geo` is absolute.
     pub(super) fn read(geo: &Path) -> Result<Sources> {
         let content = std::fs::read(geo).map_err(Error::io("read", geo))?;
-        let mut sources = Sources { closed: true, ..Sources::default() };
+        let is_mesh = content.starts_with(MESH);
+        let mut sources = Sources { closed: true, is_mesh, ..Sources::default() };
         sources.add(geo.to_path_buf(), Some(content));
+        if is_mesh {
+            return Ok(sources);
+        }
         let mut next = 0;
         while let Some((path, content)) = sources.files.get(next) {
             let (path, tokens) = (path.clone(), tokens(content.as_deref().unwrap_or(&[])));
@@ -46,6 +54,15 @@ impl Sources {
             next += 1;
         }
         Ok(sources)
+    }
+
+    /// Hands out the names and contents of all files, part by part.
+    pub(super) fn digest(&self, add: &mut dyn FnMut(&[u8])) {
+        for (path, content) in &self.files {
+            add(path.file_name().unwrap_or_default().as_encoded_bytes());
+            add(&[u8::from(content.is_some())]);
+            add(content.as_deref().unwrap_or_default());
+        }
     }
 
     /// Refuses a parameter that this .geo would not listen to.

@@ -35,6 +35,10 @@ pub struct Touch {
     pub bodies: [usize; 2],
     /// Their edges there, each once.
     pub edges: [Vec<Edge>; 2],
+    /// The length that they share [length].
+    pub length: f64,
+    /// A place in its middle.
+    pub middle: [f64; 2],
 }
 
 /// A boundary edge as a straight line.
@@ -52,8 +56,19 @@ struct Line {
 /// The length that two lines share, and where it starts and ends along the first.
 struct Shared {
     lines: [usize; 2],
+    part: Stretch,
+}
+
+/// The part of a line that another line shares.
+struct Stretch {
+    /// Nodes that end it.
     ends: Ends,
+    /// Its corner with the smallest x and y.
     corner: [f64; 2],
+    /// Its length.
+    length: f64,
+    /// Its middle.
+    middle: [f64; 2],
 }
 
 /// At start and end of a shared length: the node of either body that ends it.
@@ -76,30 +91,44 @@ pub fn touching(
     meshes: &[&Mesh],
     wanted: &(dyn Fn([usize; 2], [&Edge; 2]) -> bool + Sync),
 ) -> Result<Vec<Touch>> {
+    let different = |pair: [usize; 2], edges: [&Edge; 2]| pair[0] != pair[1] && wanted(pair, edges);
+    let lines = within_reach(all_lines(meshes)?);
+    let shared =
+        shared(&lines, &|[a, b]| different([lines[a].body, lines[b].body], [&lines[a].edge, &lines[b].edge]));
+    Ok(gather(&lines, &shared))
+}
+
+/// The lines along which boundaries lie on each other, those of one body among them, wherever `wanted` says so of two
+/// bodies, the first no later than the second, and an edge of each.
+pub fn coinciding(
+    meshes: &[&Mesh],
+    wanted: &(dyn Fn([usize; 2], [&Edge; 2]) -> bool + Sync),
+) -> Result<Vec<Touch>> {
+    let lines = all_lines(meshes)?.concat(); // by body, so that the first of two is of the first body
+    let shared = shared(&lines, &|[a, b]| {
+        a < b && wanted([lines[a].body, lines[b].body], [&lines[a].edge, &lines[b].edge])
+    });
+    Ok(gather(&lines, &shared))
+}
+
+/// The boundaries of all bodies.
+fn all_lines(meshes: &[&Mesh]) -> Result<Vec<Vec<Line>>> {
     let lines: Vec<Result<Vec<Line>>> =
         meshes.par_iter().enumerate().map(|(b, mesh)| lines(b, mesh)).collect();
-    let lines = within_reach(lines.into_iter().collect::<Result<Vec<_>>>()?);
+    lines.into_iter().collect()
+}
+
+/// The lengths that pairs of lines share; `wanted` is asked with the numbers of both.
+fn shared(lines: &[Line], wanted: &(dyn Fn([usize; 2]) -> bool + Sync)) -> Vec<Shared> {
     let numbered = lines.iter().enumerate().map(|(i, line)| Numbered(i, line.surroundings()));
     let tree = RTree::bulk_load(numbered.collect());
-    let shared: Vec<Shared> = (0..lines.len())
-        .into_par_iter()
-        .flat_map_iter(|a| {
-            let near = tree.locate_in_envelope_intersecting(lines[a].surroundings()).map(|found| found.0);
-            let lines = &lines;
-            near.filter_map(move |b| {
-                let (line_a, line_b) = (&lines[a], &lines[b]);
-                let pair = [line_a.body, line_b.body];
-                let different = pair[0] != pair[1] && wanted(pair, [&line_a.edge, &line_b.edge]);
-                if different {
-                    line_a.share(line_b).map(|(ends, corner)| Shared { lines: [a, b], ends, corner })
-                } else {
-                    None
-                }
-            })
+    let of_line = |a: usize| {
+        let near = tree.locate_in_envelope_intersecting(lines[a].surroundings()).map(|found| found.0);
+        near.filter(|&b| b != a && wanted([a, b]))
+            .filter_map(|b| lines[a].share(&lines[b]).map(|part| Shared { lines: [a, b], part }))
             .collect::<Vec<_>>()
-        })
-        .collect();
-    Ok(gather(&lines, &shared))
+    };
+    (0..lines.len()).into_par_iter().flat_map_iter(of_line).collect()
 }
 
 /// A line with its number, as the tree keeps it.
@@ -164,8 +193,8 @@ impl Line {
         AABB::from_corners(low, [0, 1].map(|d| p[d].max(q[d]) + self.reach))
     }
 
-    /// The length shared with another line: what ends it on either side, and its corner with the smallest x and y.
-    fn share(&self, other: &Line) -> Option<(Ends, [f64; 2])> {
+    /// The part that another line shares.
+    fn share(&self, other: &Line) -> Option<Stretch> {
         if dot(self.tangent, other.tangent) > AGAINST {
             return None;
         }
@@ -193,7 +222,12 @@ impl Line {
         ];
         let place = |at: f64| [0, 1].map(|d| self.ends[0][d] + at * self.tangent[d]);
         let (p, q) = (place(low), place(high));
-        Some((ends, [p[0].min(q[0]), p[1].min(q[1])]))
+        Some(Stretch {
+            ends,
+            corner: [p[0].min(q[0]), p[1].min(q[1])],
+            length: high - low,
+            middle: [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])],
+        })
     }
 }
 
@@ -203,7 +237,7 @@ fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
     // every end under the node of either side that ends it: whatever follows ends there as well
     let mut ends: Vec<End> = Vec::new();
     for i in 0..shared.len() {
-        for end in shared[i].ends {
+        for end in shared[i].part.ends {
             for side in 0..2 {
                 if let Some(node) = end[side] {
                     ends.push(End { bodies: pair(i), side, node, shared: i, other: end[1 - side] });
@@ -231,7 +265,7 @@ fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
     let mut found: Vec<([usize; 2], [f64; 2], Vec<usize>)> = pieces
         .into_values()
         .map(|piece| {
-            let corners = piece.iter().map(|&i| shared[i].corner);
+            let corners = piece.iter().map(|&i| shared[i].part.corner);
             let low = corners.fold([f64::INFINITY; 2], |low, p| [low[0].min(p[0]), low[1].min(p[1])]);
             (pair(piece[0]), low, piece)
         })
@@ -246,9 +280,22 @@ fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
             of_side.dedup();
             of_side.into_iter().map(|line| lines[line].edge).collect()
         });
-        Touch { bodies, edges }
+        let (length, middle) = middle(piece.iter().map(|&i| &shared[i].part));
+        Touch { bodies, edges, length, middle }
     };
     found.into_iter().map(touch).collect()
+}
+
+/// The length of parts of a line, and their centre, or the middle of the part nearest to it if it is off the line.
+fn middle<'a>(parts: impl Iterator<Item = &'a Stretch> + Clone) -> (f64, [f64; 2]) {
+    let length: f64 = parts.clone().map(|part| part.length).sum();
+    let centre = [0, 1].map(|d| parts.clone().map(|part| part.length * part.middle[d]).sum::<f64>() / length);
+    let off = |part: &Stretch| (part.middle[0] - centre[0]).hypot(part.middle[1] - centre[1]);
+    let nearest = parts.min_by(|one, two| off(one).total_cmp(&off(two)));
+    match nearest.filter(|part| off(part) > 0.51 * part.length) {
+        Some(part) => (length, part.middle),
+        None => (length, centre),
+    }
 }
 
 /// The larger side of the box around all lines.

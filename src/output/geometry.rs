@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::earlier::remove_grids;
 use super::files::write_whole;
 use super::vtu::{Array, Grid};
 use crate::assembly::{Body, Joint, Model};
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// What a line or point of the file is.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +33,7 @@ const TYPES: [u8; 3] = [1, 3, 4];
 /// Writes `<subdomain>.vtu` with the quality of every cell and `<interface>.vtu` with chains A and B, segments, their
 /// parents and feet, grid, law points and normals into a folder, and returns it.
 pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
-    remove_earlier(folder)?;
+    remove_grids(folder)?;
     for body in &model.bodies {
         write_whole(&folder.join(format!("{}.vtu", body.name)), &quality(body).encode())?;
     }
@@ -40,15 +41,6 @@ pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
         write_whole(&folder.join(format!("{}.vtu", joint.name)), &geometry(joint).encode())?;
     }
     Ok(folder.to_path_buf())
-}
-
-fn remove_earlier(folder: &Path) -> Result<()> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return Ok(()) };
-    let files = entries.flatten().map(|entry| entry.path());
-    for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "vtu")) {
-        std::fs::remove_file(&path).map_err(Error::io("remove", &path))?;
-    }
-    Ok(())
 }
 
 fn quality(body: &Body) -> Grid {

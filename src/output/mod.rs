@@ -2,6 +2,7 @@
 //!
 //! Every file is complete or absent: it is written aside and renamed.
 
+mod earlier;
 mod fields;
 mod files;
 mod geometry;

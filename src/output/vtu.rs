@@ -8,6 +8,11 @@ use rayon::prelude::*;
 /// Bytes of one compressed block.
 const BLOCK: usize = 1 << 20;
 
+/// The beginning of every file.
+pub(super) const HEAD: &str = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
+    byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
+    <UnstructuredGrid>\n<FieldData>\n";
+
 /// Values of one array.
 #[derive(Debug)]
 pub(super) enum Data {
@@ -114,10 +119,7 @@ impl Grid {
     /// The bytes of the file.
     pub(super) fn encode(self) -> Vec<u8> {
         let (n_points, n_cells) = (self.points.len() / 3, self.types.len());
-        let head = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
-                    byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n\
-                    <UnstructuredGrid>\n<FieldData>\n";
-        let mut draft = Draft { text: vec![head.into()], blocks: Vec::new() };
+        let mut draft = Draft { text: vec![HEAD.into()], blocks: Vec::new() };
         draft.add(Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
         draft.write(&format!(
             "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"

@@ -6,9 +6,14 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Snapshot, fields, files};
+use super::{Snapshot, earlier, fields, files};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
+
+/// The beginning of every collection.
+pub(super) const COLLECTION: &str = "<?xml version=\"1.0\"?>\n\
+    <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+    <Collection>\n";
 
 /// Writes one run's results as they come.
 #[derive(Debug)]
@@ -39,10 +44,10 @@ pub struct Row {
 }
 
 impl Writer {
-    /// Opens a folder for a run named `name`; results of an earlier run there are removed. `columns` are the names of
+    /// Opens a folder for a run named `name`; results of earlier runs there are removed, whatever their names. `columns` are the names of
     /// probes and reactions.
     pub fn create(folder: &Path, name: &str, columns: &[String]) -> Result<Writer> {
-        remove_earlier(folder, name)?;
+        earlier::remove_results(folder)?;
         std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
         let mut history = String::from("step,increment,load_factor,iterations,residual");
         for column in columns {
@@ -78,9 +83,7 @@ impl Writer {
         for name in names {
             self.collection.push((time, name.clone(), file_name(name, number)));
         }
-        let mut pvd = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n",
-        );
+        let mut pvd = String::from(COLLECTION);
         for (time, part, file) in &self.collection {
             let _ =
                 writeln!(pvd, "<DataSet timestep=\"{time}\" name=\"{part}\" part=\"0\" file=\"{file}\"/>");
@@ -117,24 +120,4 @@ fn quoted(text: &str) -> String {
     } else {
         text.into()
     }
-}
-
-/// Removes what an earlier run of this program left in the folder, and nothing else.
-fn remove_earlier(folder: &Path, name: &str) -> Result<()> {
-    let remove = |path: PathBuf| match std::fs::remove_file(&path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Error::io("remove", path)(error)),
-        _ => Ok(()),
-    };
-    for file in [format!("{name}.pvd"), "history.csv".into(), "summary.json".into()] {
-        remove(folder.join(file))?;
-    }
-    for sub in ["fields", "midplane"] {
-        let Ok(entries) = std::fs::read_dir(folder.join(sub)) else { continue };
-        for entry in entries.flatten() {
-            if entry.path().extension().is_some_and(|extension| extension == "vtu") {
-                remove(entry.path())?;
-            }
-        }
-    }
-    Ok(())
 }

@@ -38,7 +38,7 @@ impl Taken {
     }
 
     /// True if one interface has both edges, on different sides.
-    fn both(&self, bodies: [usize; 2], edges: [&Edge; 2]) -> bool {
+    pub(super) fn both(&self, bodies: [usize; 2], edges: [&Edge; 2]) -> bool {
         let of = |i: usize| self.edges.get(&(bodies[i], edges[i].nodes)).map_or(&[][..], Vec::as_slice);
         of(0).iter().any(|one| of(1).iter().any(|two| one.0 == two.0 && one.1 != two.1))
     }

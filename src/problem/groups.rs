@@ -1,12 +1,30 @@
 //! Names to groups, with an error that lists what there is.
 
 use crate::assembly::Model;
-use crate::error::{Result, name_cure};
+use crate::error::{Error, Result, name_cure};
 use crate::mesh::{Edge, Group};
-use crate::scene::{Scene, split_group};
+use crate::scene::{Scene, Subdomain, split_group};
 
-/// A group of a body, or the whole body.
+/// A group of a body, or the whole body; one that is no use, or the name of several, is refused.
 pub(super) fn find<'a>(
+    scene: &Scene,
+    model: &'a Model,
+    path: &[&str],
+    name: &str,
+) -> Result<(usize, Option<&'a Group>)> {
+    match named(scene, model, path, name)? {
+        (_, Some(Group::Namesakes(all))) => {
+            let kinds: Vec<&str> = all.iter().map(Group::kind).collect();
+            let what = format!("\"{name}\" is the name of a {}", kinds.join(" and of a "));
+            Err(scene.source.refuse(path, what, "give each physical group a name of its own"))
+        }
+        (body, Some(fault @ Group::Unusable { .. })) => Err(refusal(scene, path, (body, name), fault)),
+        found => Ok(found),
+    }
+}
+
+/// All groups of a name, or the whole body.
+fn named<'a>(
     scene: &Scene,
     model: &'a Model,
     path: &[&str],
@@ -23,7 +41,7 @@ pub(super) fn find<'a>(
         Some(found) => Ok((body, Some(found))),
         None => {
             let subdomain = &scene.subdomains[body];
-            let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
+            let file = file(subdomain);
             let place = match &subdomain.surface {
                 Some(surface) => format!("on surface \"{surface}\" of {file}"),
                 None => format!("in {file}"),
@@ -34,6 +52,22 @@ pub(super) fn find<'a>(
     }
 }
 
+/// The refusal of a group, of a body, that is no use.
+pub(super) fn refusal(scene: &Scene, path: &[&str], (body, name): (usize, &str), group: &Group) -> Error {
+    match group {
+        Group::Unusable { what, cure, .. } => {
+            let what = format!("\"{name}\" is no use: {what} in {}", file(&scene.subdomains[body]));
+            scene.source.refuse(path, what, cure.clone())
+        }
+        other => scene.source.refuse(path, format!("\"{name}\" is a {}", other.kind()), "name another"),
+    }
+}
+
+/// The file of a subdomain, as the scene names it.
+pub(super) fn file(subdomain: &Subdomain) -> &str {
+    subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str)
+}
+
 /// A group that must be a curve.
 pub(super) fn curve<'a>(
     scene: &Scene,
@@ -41,16 +75,38 @@ pub(super) fn curve<'a>(
     path: &[&str],
     name: &str,
 ) -> Result<(usize, &'a [Edge])> {
-    let (body, group) = find(scene, model, path, name)?;
-    match group {
-        Some(Group::Edges(edges)) => Ok((body, edges)),
-        other => {
-            let kind = other.map_or("body", Group::kind);
-            let mesh = &model.bodies[body].mesh;
-            let curves = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Edges(_)));
-            let curves: Vec<&str> = curves.map(|(name, _)| name.as_str()).collect();
-            let what = format!("\"{name}\" is a {kind}, not a curve");
-            Err(scene.source.refuse(path, what, format!("its curves are {}", curves.join(", "))))
+    let (body, group) = named(scene, model, path, name)?;
+    let all = group.map_or(&[][..], Group::each);
+    if let Some(curve) = all.iter().find(|group| group.kind() == "curve") {
+        return match curve {
+            Group::Edges(edges) => Ok((body, edges)),
+            fault => Err(refusal(scene, path, (body, name), fault)),
+        };
+    }
+    let kind = group.map_or("body", Group::kind);
+    let mesh = &model.bodies[body].mesh;
+    let curves = mesh.groups.iter().filter(|(_, group)| group.each().iter().any(|one| one.kind() == "curve"));
+    let curves: Vec<&str> = curves.map(|(name, _)| name.as_str()).collect();
+    let what = format!("\"{name}\" is a {kind}, not a curve");
+    Err(scene.source.refuse(path, what, format!("its curves are {}", curves.join(", "))))
+}
+
+/// A group that must be of points.
+pub(super) fn points<'a>(
+    scene: &Scene,
+    model: &'a Model,
+    path: &[&str],
+    name: &str,
+) -> Result<(usize, &'a [usize])> {
+    let (body, group) = named(scene, model, path, name)?;
+    let all = group.map_or(&[][..], Group::each);
+    match all.iter().find(|group| group.kind() == "point") {
+        Some(Group::Points(points)) => Ok((body, points)),
+        Some(fault) => Err(refusal(scene, path, (body, name), fault)),
+        None => {
+            let kind = group.map_or("body", Group::kind);
+            let what = format!("a force on \"{name}\", which is a {kind}");
+            Err(scene.source.refuse(path, what, "name a physical point, or give a \"traction\""))
         }
     }
 }
@@ -80,6 +136,7 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
     match group {
         None => (0..mesh.cells.len()).for_each(&mut add_cell),
         Some(Group::Cells(cells)) => cells.iter().copied().for_each(&mut add_cell),
+        Some(Group::Namesakes(_) | Group::Unusable { .. }) => {} // refused above
         Some(Group::Points(points)) => weights.extend(points.iter().map(|&point| (point, 1.0))),
         Some(Group::Edges(edges)) => {
             for edge in edges {

@@ -29,7 +29,7 @@ pub struct Reaction {
 }
 
 /// Loads in force, by key and what they act on.
-type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
+pub(super) type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
 
 /// Supports in force.
 struct Supports {
@@ -109,7 +109,7 @@ fn total<'a>(
 }
 
 /// The loads that a step names.
-fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> Result<Loads> {
+pub(super) fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> Result<Loads> {
     let mut given = Loads::new();
     for (group, load) in &step.load {
         let bound = BoundLoad::on_group(scene, model, index, group, load)?;

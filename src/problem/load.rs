@@ -5,7 +5,7 @@ use super::{along, groups};
 use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
-use crate::mesh::{Edge, Group};
+use crate::mesh::Edge;
 use crate::scene::{Load, Place, Scene, Value, Variable};
 
 /// A load in force.
@@ -47,14 +47,8 @@ impl BoundLoad {
             Load::Traction(values) => (both("traction", values), false),
             Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
             Load::Force(values) => {
-                let (body, group) = groups::find(scene, model, &path, name)?;
-                let Some(Group::Points(points)) = group else {
-                    let kind = group.map_or("body", Group::kind);
-                    let what = format!("a force on \"{name}\", which is a {kind}");
-                    let cure = "name a physical point, or give a \"traction\"";
-                    return Err(scene.source.refuse(&path, what, cure));
-                };
-                let target = Target::Points { body, points: points.clone() };
+                let (body, points) = groups::points(scene, model, &path, name)?;
+                let target = Target::Points { body, points: points.to_vec() };
                 return Ok(BoundLoad { target, values: both("force", values) });
             }
         };
@@ -94,6 +88,26 @@ impl BoundLoad {
     /// Whether load_factor occurs in it, so that it does not ramp.
     pub(super) fn follows_load_factor(&self) -> bool {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))
+    }
+
+    /// True if it has no nodal force at any of the load levels of a step.
+    pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
+        let both = self.values.each_ref().map(Quantity::constant);
+        if let Target::Body { factor: 0.0, .. } = self.target {
+            return Ok(true);
+        }
+        if let [Some(x), Some(y)] = both {
+            return Ok(x == 0.0 && y == 0.0);
+        }
+        let levels = if self.follows_load_factor() { 1..=increments } else { increments..=increments };
+        for level in levels {
+            let mut force = vec![0.0; model.dofs()];
+            self.add(model, level as f64 / increments as f64, &mut force)?;
+            if force.iter().any(|force| *force != 0.0) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 
     /// Adds its nodal forces at a load level.

@@ -6,6 +6,7 @@ mod cover;
 mod gap;
 mod groups;
 mod history;
+mod idle;
 mod initial;
 mod load;
 mod parts;
@@ -16,6 +17,7 @@ mod rigid;
 mod stage;
 mod stiffness;
 mod survey;
+mod unjoined;
 mod unused;
 mod warnings;
 
@@ -95,9 +97,13 @@ impl Problem {
             model.joints.push(joint);
         }
         warnings.extend(cover::shares(scene, &model, &plans)?);
+        let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
+        warnings.extend(unjoined);
         let (stages, reactions) = history::stages(scene, &model)?;
+        warnings.extend(idle::loads(scene, &model)?);
+        warnings.extend(idle::keys(scene, &plans));
         for stage in &stages {
-            let warning = rigid::refuse_free_bodies(&model, &laws, stage)?;
+            let warning = rigid::refuse_free_bodies(&model, &connectivity, &laws, stage)?;
             let new = warning.filter(|warning| !warnings.contains(warning));
             warnings.extend(new);
         }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use rayon::prelude::*;
 
+use super::groups::{file, refusal};
 use crate::error::{Code, Result, Warning, name_cure};
 use crate::mesh::{Group, Mesh};
 use crate::scene::Scene;
@@ -24,16 +25,7 @@ pub fn subdomain_meshes(
             continue;
         };
         let path = ["subdomains", name, "surface"];
-        let Some(Group::Cells(of_surface)) = mesh.groups.get(surface) else {
-            let file = subdomain.geo.as_ref().or(subdomain.msh.as_ref()).map_or("the mesh", String::as_str);
-            let what = match mesh.groups.get(surface) {
-                Some(other) => format!("\"{surface}\" of {file} is a {}, not a surface", other.kind()),
-                None => format!("no surface \"{surface}\" in {file}"),
-            };
-            let surfaces = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Cells(_)));
-            let cure = name_cure(surface, surfaces.map(|(name, _)| name.as_str()));
-            return Err(scene.source.refuse(&path, what, cure));
-        };
+        let of_surface = surface_cells(scene, name, mesh, surface)?;
         for &cell in of_surface {
             let before = std::mem::replace(&mut owner[file_of[number]][cell], number);
             if before != usize::MAX {
@@ -64,6 +56,28 @@ pub fn subdomain_meshes(
     Ok((meshes.into_iter().collect::<Result<_>>()?, warnings))
 }
 
+/// The cells of the physical surface that a subdomain consists of.
+fn surface_cells<'a>(scene: &Scene, name: &str, mesh: &'a Mesh, surface: &str) -> Result<&'a [usize]> {
+    let (path, subdomain) = (["subdomains", name, "surface"], &scene.subdomains[name]);
+    let file = file(subdomain);
+    let is_surface = |group: &&Group| group.kind() == "surface";
+    let found = mesh.groups.get(surface);
+    let what = match found.and_then(|group| group.each().iter().find(is_surface)) {
+        Some(Group::Cells(cells)) => return Ok(cells),
+        Some(fault) => {
+            let body = scene.subdomains.get_index_of(name).unwrap_or(0);
+            return Err(refusal(scene, &path, (body, surface), fault));
+        }
+        None => match found {
+            Some(other) => format!("\"{surface}\" of {file} is a {}, not a surface", other.kind()),
+            None => format!("no surface \"{surface}\" in {file}"),
+        },
+    };
+    let surfaces = mesh.groups.iter().filter(|(_, group)| group.each().iter().any(|one| is_surface(&one)));
+    let cure = name_cure(surface, surfaces.map(|(name, _)| name.as_str()));
+    Err(scene.source.refuse(&path, what, cure))
+}
+
 /// True if every subdomain has the file of its own number.
 fn in_order(files: &[Mesh], file_of: &[usize]) -> bool {
     files.len() == file_of.len() && file_of.iter().enumerate().all(|(number, &file)| number == file)
@@ -72,7 +86,9 @@ fn in_order(files: &[Mesh], file_of: &[usize]) -> bool {
 /// What no subdomain takes of a mesh that some share.
 fn left_out(mesh: &Mesh, owner: &[usize]) -> Option<Warning> {
     let free = |cells: &Vec<usize>| cells.iter().all(|&cell| owner[cell] == usize::MAX);
-    let unused = mesh.groups.iter().filter(|(_, group)| matches!(group, Group::Cells(cells) if free(cells)));
+    let unused = mesh.groups.iter().filter(|(_, group)| {
+        group.each().iter().any(|one| matches!(one, Group::Cells(cells) if free(cells)))
+    });
     let names: Vec<String> = unused.map(|(name, _)| format!("\"{name}\"")).collect();
     let left = owner.iter().filter(|&&number| number == usize::MAX).count();
     let file = mesh.file.file_name().map_or_else(PathBuf::new, PathBuf::from);

@@ -1,12 +1,14 @@
 //! Rigid motions that nothing holds, or next to nothing: found before anything is solved, and named.
 //!
-//! Every connected part of every body has three rigid motions. Supports and joints resist combinations of them; the Gram
+//! Every piece of every body (cells that hang together by edges) has three rigid motions. Supports, joints and nodes that
+//! two pieces share resist combinations of them; the Gram
 //! matrix of these resistances must have no null space. A joint counts by K h/E, up to 1: softer springs than the bodies
 //! leave fewer digits of a motion that they alone resist.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::stiffness::compliance;
+use super::unjoined::Connectivity;
 use super::{InitialTraction, Stage};
 use crate::assembly::Model;
 use crate::error::{Code, Error, Result, Warning};
@@ -18,7 +20,7 @@ const FREE: f64 = 1e-12;
 /// turn about its centre by less, and ever less on finer meshes. Of the largest resistance.
 const HARDLY: f64 = 1e-6;
 
-/// A connected part of a body.
+/// A piece of a body.
 struct Part {
     body: usize,
     nodes: Vec<usize>, // of the model
@@ -29,10 +31,11 @@ struct Part {
 /// Refuses the step if a body can move freely in it; warns if it almost can.
 pub(super) fn refuse_free_bodies(
     model: &Model,
+    connectivity: &[Connectivity],
     laws: &[(Law, InitialTraction)],
     stage: &Stage,
 ) -> Result<Option<Warning>> {
-    let (parts, part_of) = parts(model);
+    let (parts, part_of, hinges) = parts(model, connectivity);
     let motion = |part: &Part, mode: usize, node: usize| -> [f64; 2] {
         let body = &model.bodies[part.body];
         let x = body.mesh.points[node - body.first_node];
@@ -54,6 +57,21 @@ pub(super) fn refuse_free_bodies(
                     for j in 0..3 {
                         gram[(3 * p + i, 3 * p + j)] += share * row[i] * row[j];
                     }
+                }
+            }
+        }
+    }
+    for &(node, one, two) in &hinges {
+        let rows = [0, 1].map(|d| {
+            let of = |p: usize, sign: f64| {
+                [0, 1, 2].map(|mode| (3 * p + mode, sign * motion(&parts[p], mode, node)[d]))
+            };
+            [of(one, 1.0), of(two, -1.0)].concat()
+        });
+        for row in rows {
+            for &(i, own) in &row {
+                for &(j, other) in &row {
+                    gram[(i, j)] += own * other;
                 }
             }
         }
@@ -97,7 +115,7 @@ pub(super) fn refuse_free_bodies(
                 let [x, y] = part.centre;
                 let mode =
                     if mode == 2 { format!("{text} about ({x:.4}, {y:.4})") } else { text.to_string() };
-                return Err(free(model, &parts, &[p], mode));
+                return Err(free(model, connectivity, &parts, &[p], mode));
             }
         }
     }
@@ -120,63 +138,80 @@ pub(super) fn refuse_free_bodies(
         format!("rotation about ({:.4}, {:.4})", part.centre[0] - ty / omega, part.centre[1] + tx / omega)
     };
     if value <= limit {
-        return Err(free(model, &parts, &moving, text));
+        return Err(free(model, connectivity, &parts, &moving, text));
     }
     let what = format!(
         "{} is hardly held against a {text}: {:.0e} of the largest resistance",
-        named(model, &parts, &moving),
+        named(model, connectivity, &parts, &moving),
         value / limit * FREE
     );
     let cure = "hold it, or give its joints a stiffness in that direction: what it does is up to the mesh";
     Ok(Some(Warning::new(Code::HardlyHeld, what, cure)))
 }
 
-fn free(model: &Model, parts: &[Part], moving: &[usize], mode: String) -> Error {
-    Error::FreeBody { body: named(model, parts, moving), mode }
+fn free(
+    model: &Model,
+    connectivity: &[Connectivity],
+    parts: &[Part],
+    moving: &[usize],
+    mode: String,
+) -> Error {
+    let body = parts[moving[0]].body;
+    let mode = match connectivity[body].told(&model.bodies[body]) {
+        Some(told) => format!("{mode} ({told})"),
+        None => mode,
+    };
+    Error::FreeBody { body: named(model, connectivity, parts, moving), mode }
 }
 
-/// The bodies of some parts, the first before the others.
-fn named(model: &Model, parts: &[Part], moving: &[usize]) -> String {
+/// The bodies of some parts, the first before the others; a piece by its place.
+fn named(model: &Model, connectivity: &[Connectivity], parts: &[Part], moving: &[usize]) -> String {
     let mut names: Vec<&str> = moving.iter().map(|&p| model.bodies[parts[p].body].name.as_str()).collect();
     names.dedup();
+    let Part { body, centre: [x, y], .. } = &parts[moving[0]];
+    let piece = if connectivity[*body].pieces.count > 1 {
+        format!("the piece around ({x:.4}, {y:.4}) of ")
+    } else {
+        String::new()
+    };
     match names.as_slice() {
-        [one] => format!("subdomain {one}"),
-        [first, rest @ ..] => format!("subdomain {first} (with {})", rest.join(", ")),
+        [one] => format!("{piece}subdomain {one}"),
+        [first, rest @ ..] => format!("{piece}subdomain {first} (with {})", rest.join(", ")),
         [] => String::new(),
     }
 }
 
-/// Connected parts of all bodies, and the part of every node.
-fn parts(model: &Model) -> (Vec<Part>, Vec<usize>) {
-    let mut root: Vec<usize> = (0..model.nodes()).collect();
-    fn find(root: &mut [usize], mut node: usize) -> usize {
-        while root[node] != node {
-            root[node] = root[root[node]];
-            node = root[node];
-        }
-        node
-    }
-    for body in &model.bodies {
-        for c in 0..body.mesh.cells.len() {
-            let nodes = body.mesh.cells.nodes(c);
-            let first = find(&mut root, body.first_node + nodes[0]);
-            for &node in &nodes[1..] {
-                let other = find(&mut root, body.first_node + node);
-                root[other] = first;
-            }
-        }
-    }
+/// A node and two pieces that share it.
+type Hinge = (usize, usize, usize);
+
+/// The pieces of all bodies, a piece of every node, and the nodes that hold pieces together.
+fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<Part>, Vec<usize>, Vec<Hinge>) {
     let mut parts: Vec<Part> = Vec::new();
     let mut part_of = vec![usize::MAX; model.nodes()];
-    for (b, body) in model.bodies.iter().enumerate() {
-        for node in body.first_node..body.first_node + body.mesh.points.len() {
-            let top = find(&mut root, node);
-            if part_of[top] == usize::MAX {
-                part_of[top] = parts.len();
-                parts.push(Part { body: b, nodes: Vec::new(), centre: [0.0; 2], size: 0.0 });
+    let mut hinges = Vec::new();
+    for (b, (body, Connectivity { pieces, .. })) in model.bodies.iter().zip(connectivity).enumerate() {
+        let first = parts.len();
+        parts.extend((0..pieces.count).map(|_| Part {
+            body: b,
+            nodes: Vec::new(),
+            centre: [0.0; 2],
+            size: 0.0,
+        }));
+        for (cell, piece) in pieces.of_cell.iter().enumerate() {
+            for node in body.mesh.cells.nodes(cell) {
+                let own = &mut part_of[body.first_node + node];
+                *own = (*own).min(first + piece);
             }
-            part_of[node] = part_of[top];
+        }
+        for node in body.first_node..body.first_node + body.mesh.points.len() {
             parts[part_of[node]].nodes.push(node);
+        }
+        for (node, sharing) in &pieces.hinges {
+            let node = body.first_node + node;
+            for other in &sharing[1..] {
+                parts[first + other].nodes.push(node); // a support there holds every piece
+                hinges.push((node, first + sharing[0], first + other));
+            }
         }
     }
     for part in &mut parts {
@@ -190,5 +225,5 @@ fn parts(model: &Model) -> (Vec<Part>, Vec<usize>) {
         part.centre = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
         part.size = 0.5 * (x.1 - x.0).max(y.1 - y.0);
     }
-    (parts, part_of)
+    (parts, part_of, hinges)
 }

@@ -6,7 +6,6 @@ use serde_json::Value;
 
 use crate::assembly::Model;
 use crate::error::{Code, Warning};
-use crate::mesh::Group;
 use crate::scene::Scene;
 
 /// One line for every subdomain with groups that nothing in the scene names. Surfaces do not count: every mesh has one.
@@ -19,7 +18,7 @@ pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<Warning> {
         texts.contains(name) || texts.iter().any(|text| text.starts_with(&within))
     };
     let lines = model.bodies.iter().map(|body| {
-        let groups = body.mesh.groups.iter().filter(|(_, group)| !matches!(group, Group::Cells(_)));
+        let groups = body.mesh.groups.iter().filter(|(_, group)| group.kind() != "surface");
         // those who share the mesh share its groups
         let sharing = || model.bodies.iter().filter(|other| other.mesh.file == body.mesh.file);
         let used = |name: &str| sharing().any(|other| used(&format!("{}.{name}", other.name)));

@@ -157,13 +157,19 @@ fn files(scene: &Scene) -> Result<(Vec<Origin>, Vec<usize>)> {
             let cure = format!("files are named relative to {}", base.display());
             return Err(scene.source.refuse(&["subdomains", name, key], what, cure));
         }
-        let wanted = if key == "msh" {
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let wanted = if key == "msh" && mesh::is_earlier_format(&path)? {
+            Origin::Geometry(Job {
+                name: stem.unwrap_or_else(|| name.clone()),
+                geo: path,
+                parameters: Vec::new(),
+            })
+        } else if key == "msh" {
             Origin::Mesh(path)
         } else {
             let parameters =
                 subdomain.parameters.iter().map(|(name, value)| (name.clone(), *value)).collect();
             // a mesh of several subdomains has the name of its geometry
-            let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
             let name = stem.filter(|_| subdomain.surface.is_some()).unwrap_or_else(|| name.clone());
             Origin::Geometry(Job { name, geo: path, parameters })
         };

@@ -43,6 +43,11 @@ impl Shared {
         }
     }
 
+    /// The version that the mesher states.
+    pub fn mesher(&self) -> Result<&str> {
+        self.gmsh.version()
+    }
+
     /// Meshes what is stale, one run at a time so that none is meshed twice.
     pub(super) fn mesh_all(&self, jobs: &[Job]) -> Result<Vec<Meshed>> {
         let _one = lock(&self.meshing);

@@ -150,6 +150,7 @@ impl Scene {
                 self.check_group(&["steps", index, key, group], group)?;
             }
         }
+        self.check_gravity(index, step)?;
         for (group, directions) in &step.fix {
             if directions.is_empty() {
                 let path = ["steps", index, "fix", group];
@@ -185,6 +186,24 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// Gravity acts on a density.
+    fn check_gravity(&self, index: &str, step: &Step) -> Result<()> {
+        let Some(values) = &step.gravity else { return Ok(()) };
+        let mut names: Vec<&str> = self.subdomains.values().map(|part| part.material.as_str()).collect();
+        if values.iter().all(|value| value.constant() == Some(0.0))
+            || names.iter().any(|name| self.materials[*name].density != 0.0)
+        {
+            return Ok(());
+        }
+        names.sort_unstable();
+        names.dedup();
+        let keys: Vec<String> = names.iter().map(|name| format!("materials.{name}.density")).collect();
+        let verb = if keys.len() == 1 { "is" } else { "are" };
+        let what = format!("gravity acts on no density: {} {verb} 0", keys.join(" and "));
+        let help = "give a material of a subdomain a density, or take a \"body_force\"";
+        Err(self.source.refuse(&["steps", index, "gravity"], what, help))
     }
 
     /// A name that becomes a file name: letters, digits, `_` and `-`.

@@ -2,7 +2,7 @@
 
 use wildmatch::WildMatch;
 
-use super::{InitialGap, Interface, OneOrMany, Scene, Variable, split_group};
+use super::{CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Variable, split_group};
 use crate::error::{Result, name_cure};
 use crate::law::Law;
 
@@ -29,6 +29,11 @@ impl Scene {
             }
         }
         self.check_gap(name, interface)?;
+        if interface.grid != Grid::Auto && interface.coupling == CouplingKind::Pointwise {
+            let path = ["interfaces", name, "grid"];
+            let help = "leave \"grid\" out, or take \"coupling\": \"projected\"";
+            return Err(self.source.refuse(&path, "\"pointwise\" has no grid", help));
+        }
         for (i, value) in interface.initial_traction.iter().enumerate() {
             if value.uses(Variable::LoadFactor) {
                 let path = ["interfaces", name, "initial_traction", &i.to_string()];

@@ -89,7 +89,7 @@ pub struct Subdomain {
     /// gmsh geometry, relative to the scene file. Either this or `msh`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geo: Option<String>,
-    /// gmsh mesh (MSH 4.1), relative to the scene file. Either this or `geo`.
+    /// gmsh mesh (MSH 4.1; MSH 2 and 4.0 are converted by gmsh), relative to the scene file. Either this or `geo`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub msh: Option<String>,
     /// Physical surface of a mesh that several subdomains share: the subdomain consists of its cells, and the nodes on

@@ -51,6 +51,7 @@ pub enum JointField {
     FractureWork,
 }
 
+const DISPLACEMENTS: [&str; 2] = ["displacement_x", "displacement_y"];
 const JOINT_FIELDS: [(&str, JointField); 5] = [
     ("jump_n", JointField::Jump(0)),
     ("jump_t", JointField::Jump(1)),
@@ -68,6 +69,7 @@ impl Probe {
             "work.external" => return Ok(Probe::WorkExternal),
             _ => {}
         }
+        refuse_separators(text, scene)?;
         let Some((object, field)) = text.rsplit_once('.').filter(|_| !text.contains('@')).or_else(|| {
             let dot = text.split('@').next().and_then(|head| head.rfind('.'))?;
             Some((&text[..dot], &text[dot + 1..]))
@@ -86,15 +88,10 @@ impl Probe {
             ));
         }
         if scene.subdomains.contains_key(super::split_group(object).0) {
-            let direction = match field {
-                "displacement_x" => Direction::X,
-                "displacement_y" => Direction::Y,
-                _ => {
-                    return Err((
-                        format!("no field \"{field}\""),
-                        name_cure(field, ["displacement_x", "displacement_y"]),
-                    ));
-                }
+            let direction = match DISPLACEMENTS.iter().position(|known| *known == field) {
+                Some(0) => Direction::X,
+                Some(_) => Direction::Y,
+                None => return Err((format!("no field \"{field}\""), name_cure(field, DISPLACEMENTS))),
             };
             return Ok(Probe::Displacement { group: object.into(), direction });
         }
@@ -102,6 +99,21 @@ impl Probe {
         let names = names.chain(["energy", "work"]);
         Err((format!("no interface or subdomain \"{object}\""), name_cure(object, names)))
     }
+}
+
+/// Refuses a group whose name holds the separator of a place, which nothing could tell from the place itself.
+fn refuse_separators(text: &str, scene: &Scene) -> std::result::Result<(), (String, String)> {
+    let Some((object, field)) = text.rsplit_once('.') else { return Ok(()) };
+    let (subdomain, group) = super::split_group(object);
+    let is_field = DISPLACEMENTS.contains(&field);
+    if is_field && scene.subdomains.contains_key(subdomain) && group.is_some_and(|group| group.contains('@'))
+    {
+        let what = format!("\"@\" in the name \"{object}\"");
+        let cure =
+            "a probe cannot name a group with \"@\": give its curve a second physical group without it";
+        return Err((what, cure.into()));
+    }
+    Ok(())
 }
 
 fn joint(interface: &str, field: &str) -> std::result::Result<Probe, (String, String)> {

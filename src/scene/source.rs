@@ -58,6 +58,12 @@ impl Source {
         }
     }
 
+    /// True if the file itself has a key, no default and no `--set`.
+    pub fn states(&self, path: &[&str]) -> bool {
+        let path: Vec<String> = path.iter().map(|part| part.to_string()).collect();
+        self.places.contains_key(&path)
+    }
+
     /// A refusal that points into a string: at the bytes `span` of `text`, which stands below the key.
     pub fn refuse_within<S: AsRef<str>>(
         &self,

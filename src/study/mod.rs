@@ -57,11 +57,12 @@ pub struct Done {
 /// Runs every point that has no outcome yet, then writes study.csv and study.json.
 pub fn run(plan: &Plan, means: &Means, listen: &mut dyn FnMut(Progress)) -> Result<Done> {
     let total = plan.len();
-    let mut outcomes: Vec<Option<Outcome>> = (0..total).map(|k| point::earlier(plan, means, k)).collect();
+    let shared = &Shared::new(&means.options, &means.meshes());
+    let mut outcomes: Vec<Option<Outcome>> =
+        (0..total).map(|k| point::earlier(plan, means, shared, k)).collect();
     let missing: VecDeque<usize> = (0..total).filter(|&k| outcomes[k].is_none()).collect();
     let mut done = total - missing.len();
     listen(Progress { done, total, outcome: None });
-    let shared = &Shared::new(&means.options, &means.meshes());
     let queue = &Mutex::new(missing);
     let (send, received) = mpsc::channel();
     let first_error = std::thread::scope(|scope| {

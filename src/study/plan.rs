@@ -8,6 +8,8 @@ use super::design::{Point, points, setting};
 use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
 use crate::error::{Error, Result, name_cure};
+use crate::mesh;
+use crate::run::Shared;
 use crate::scene::probe::Probe;
 use crate::scene::{self, Scene, Source, document};
 
@@ -24,7 +26,10 @@ pub struct Plan {
     pub(super) points: Vec<Point>,
     /// How many are the design's.
     pub(super) designed: usize,
-    keys: Vec<String>,
+    /// Digests of all that files decide of a point; none where more than files decides.
+    keys: Vec<Option<String>>,
+    /// True if the mesher has a part in it.
+    meshed: bool,
 }
 
 impl Plan {
@@ -61,10 +66,15 @@ impl Plan {
         let wanted = |k: usize| only.is_none_or(|only| only == k);
         let keys = points.iter().enumerate().map(|(k, point)| match wanted(k) {
             true => scene::read(&scene, &point.settings).map(|scene| key(&study, point, &scene)),
-            false => Ok(String::new()),
+            false => Ok(None),
         });
-        let keys = keys.collect::<Result<Vec<String>>>()?;
-        Ok(Plan { name: name(file), study, scene, points, designed, keys })
+        let keys = keys.collect::<Result<Vec<Option<String>>>>()?;
+        let mut meshed = false;
+        for part in plain.subdomains.values() {
+            let old = |msh: &String| mesh::is_earlier_format(&plain.source.folder().join(msh));
+            meshed |= part.geo.is_some() || part.msh.as_ref().is_some_and(|msh| old(msh).unwrap_or(false));
+        }
+        Ok(Plan { name: name(file), study, scene, points, designed, keys, meshed })
     }
 
     /// Number of all points, those of the reference included.
@@ -77,9 +87,11 @@ impl Plan {
         self.points.is_empty()
     }
 
-    /// Digest of all that decides a point that was checked.
-    pub(super) fn key(&self, point: usize) -> &str {
-        &self.keys[point]
+    /// Digest of all that decides a point that was checked, the mesher's version among it; none where more decides, so
+    /// that an outcome is good once.
+    pub(super) fn key(&self, shared: &Shared, point: usize) -> Result<Option<String>> {
+        let Some(key) = &self.keys[point] else { return Ok(None) };
+        Ok(Some(if self.meshed { format!("{key} gmsh {}", shared.mesher()?) } else { key.clone() }))
     }
 }
 
@@ -103,6 +115,12 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
             if scene.output.history.contains_key(of) || of.starts_with("reaction:") {
                 continue;
             }
+            if name.contains('=') || of.contains('=') {
+                let what = format!("\"=\" in the measure \"{name}\" of \"{of}\"");
+                let cure =
+                    "give it a column of the scene's \"output.history\" without \"=\" and measure that";
+                return Err(source.refuse(&["measures", name, "of"], what, cure));
+            }
             Probe::parse(of, scene)
                 .map_err(|(what, cure)| source.refuse(&["measures", name, "of"], what, cure))?;
         }
@@ -124,8 +142,8 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
     Ok(())
 }
 
-/// Settings, measures, the scene's text and those of the files it names.
-fn key(study: &Study, point: &Point, scene: &Scene) -> String {
+/// Settings, measures, the program's version, the scene's text and those of the files it names, with all they include.
+fn key(study: &Study, point: &Point, scene: &Scene) -> Option<String> {
     let mut hash = Sha256::new();
     let mut add = |part: &[u8]| {
         hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other
@@ -139,10 +157,12 @@ fn key(study: &Study, point: &Point, scene: &Scene) -> String {
     point.settings.iter().for_each(|setting| add(setting.as_bytes()));
     for part in scene.subdomains.values() {
         for file in part.geo.iter().chain(&part.msh) {
-            add(&std::fs::read(scene.source.folder().join(file)).unwrap_or_default());
+            // a file that cannot be read is refused by the run
+            let digest = mesh::digest(&scene.source.folder().join(file)).unwrap_or(Some(String::new()));
+            add(digest?.as_bytes());
         }
     }
-    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    Some(hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// `geo/strip/study.json` is "strip_study".

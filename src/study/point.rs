@@ -47,10 +47,10 @@ impl Means {
 }
 
 /// The outcome of a point that was run before, if nothing that decides it has changed.
-pub(super) fn earlier(plan: &Plan, means: &Means, point: usize) -> Option<Outcome> {
+pub(super) fn earlier(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Option<Outcome> {
     let text = std::fs::read_to_string(means.file(point)).ok()?;
     let outcome: Outcome = serde_json::from_str(&text).ok()?;
-    (outcome.key == plan.key(point)).then_some(outcome)
+    (outcome.key == plan.key(shared, point).ok()??).then_some(outcome)
 }
 
 /// Runs a point as often as the study says and keeps its outcome.
@@ -82,6 +82,7 @@ pub(super) fn run_point(plan: &Plan, means: &Means, shared: &Shared, point: usiz
 /// One run in this process. What is wrong with the point is its outcome; what is wrong with the machine is an error.
 pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Result<Outcome> {
     let settings = plan.points[point].settings.clone();
+    let key = plan.key(shared, point)?.unwrap_or_default();
     let options = Options {
         scene: plan.scene.clone(),
         out: Some(means.folder(point)),
@@ -111,7 +112,7 @@ pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize
     let values = gauge.values().into_iter().map(|(name, value)| (name, known(value))).collect();
     Ok(Outcome {
         point,
-        key: plan.key(point).into(),
+        key,
         settings,
         status: status.into(),
         message,

@@ -1,0 +1,137 @@
+//! What hangs together: the pieces of every subdomain, and boundaries that lie on each other with nothing to join them.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::between::Taken;
+use super::plan::Plan;
+use crate::assembly::{Body, Model};
+use crate::error::{Code, Result, Warning};
+use crate::mesh::{Edge, Mesh, Pieces, Touch, coinciding};
+
+/// Boundaries that lie on each other along less only meet at a point. Of the shortest edge there.
+const MEETING: f64 = 1e-2;
+/// Hinges that a message names.
+const NAMED: usize = 3;
+/// Digits of a place or a length in a message, of the extent of the mesh.
+const DIGITS: f64 = 5.0;
+
+/// Connectivity of a subdomain.
+#[derive(Debug)]
+pub(super) struct Connectivity {
+    /// Its pieces.
+    pub(super) pieces: Pieces,
+    /// Length and middle of the lines along which different pieces lie on each other.
+    lines: Option<Line>,
+}
+
+/// Length and middle of lines of contact.
+type Line = (f64, [f64; 2]);
+
+/// Connectivity of every subdomain; warnings of boundaries that lie on each other and that nothing joins.
+pub(super) fn look(model: &Model, plans: &[Plan]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
+    let pieces: Vec<Result<Pieces>> = model.bodies.par_iter().map(|body| body.mesh.pieces()).collect();
+    let pieces = pieces.into_iter().collect::<Result<Vec<Pieces>>>()?;
+    let mut taken = Taken::default();
+    plans.iter().for_each(|plan| taken.add(&plan.sides));
+    let meshes: Vec<&Mesh> = model.bodies.iter().map(|body| &body.mesh).collect();
+    let free = |bodies: [usize; 2], edges: [&Edge; 2]| !taken.both(bodies, edges);
+    let touches = coinciding(&meshes, &free)?;
+    let mut apart: BTreeMap<[usize; 2], Line> = BTreeMap::new();
+    let mut within: BTreeMap<(usize, bool), Line> = BTreeMap::new();
+    for touch in touches.iter().filter(|touch| is_line(model, touch)) {
+        let [a, b] = touch.bodies;
+        if a == b {
+            let [one, two] = [0, 1].map(|side| pieces[a].of_cell[touch.edges[side][0].cell]);
+            add(within.entry((a, one != two)).or_default(), touch);
+        } else {
+            add(apart.entry([a, b]).or_default(), touch);
+        }
+    }
+    let lines = |body: usize| within.get(&(body, true)).copied();
+    let found: Vec<Connectivity> = pieces
+        .into_iter()
+        .enumerate()
+        .map(|(body, pieces)| Connectivity { pieces, lines: lines(body) })
+        .collect();
+    let unconnected = within.iter().map(|(&(body, pieces), line)| {
+        let own = &model.bodies[body];
+        let what = match found[body].told(own).filter(|_| pieces) {
+            Some(told) => format!("the mesh of {told}"),
+            None => format!("boundaries of {} {} and share no nodes", own.name, on_each_other(own, line)),
+        };
+        let help = "is `Coherence` or `BooleanFragments` missing in its .geo? fine if a slit is meant";
+        Warning::new(Code::Unconnected, what, help)
+    });
+    let unjoined = apart.iter().map(|(&[a, b], (length, middle))| {
+        let [a, b] = [&model.bodies[a], &model.bodies[b]];
+        let (length, place) = (short(a, *length), near(a, *middle));
+        let what = format!("{} and {} touch along {length} near {place} and no interface joins them", a.name, b.name);
+        let help = "they pass through each other: add an interface, or look at the curves and patterns of those there are";
+        Warning::new(Code::Unjoined, what, help)
+    });
+    let warnings = unconnected.chain(unjoined).collect();
+    Ok((found, warnings))
+}
+
+impl Connectivity {
+    /// "up falls into 2 pieces that share only the node at (1, 0.5)"; nothing of a subdomain in one piece.
+    pub(super) fn told(&self, body: &Body) -> Option<String> {
+        let Pieces { count, hinges, .. } = &self.pieces;
+        if *count < 2 {
+            return None;
+        }
+        let places: Vec<String> =
+            hinges.iter().take(NAMED).map(|(node, _)| near(body, body.mesh.points[*node])).collect();
+        let mut text = format!("{} falls into {count} pieces that share ", body.name);
+        match hinges.len() {
+            0 => text.push_str("no node"),
+            1 => text.push_str(&format!("only the node at {}", places[0])),
+            n if n <= NAMED => text.push_str(&format!("only the nodes at {}", places.join(" and "))),
+            n => text.push_str(&format!("only {n} nodes, such as those at {}", places.join(", "))),
+        }
+        if let Some(line) = &self.lines {
+            text.push_str(&format!(" and {}", on_each_other(body, line)));
+        }
+        Some(text)
+    }
+}
+
+/// "lie on each other along 2 near (1, 0.5)".
+fn on_each_other(body: &Body, (length, middle): &Line) -> String {
+    format!("lie on each other along {} near {}", short(body, *length), near(body, *middle))
+}
+
+/// True unless the boundaries only meet at a point.
+fn is_line(model: &Model, touch: &Touch) -> bool {
+    let length = |body: usize, edge: &Edge| {
+        let [p, q] = [0, 1].map(|i| model.bodies[body].mesh.points[edge.nodes[i]]);
+        (q[0] - p[0]).hypot(q[1] - p[1])
+    };
+    let sides = touch.bodies.iter().zip(&touch.edges);
+    let lengths = sides.flat_map(|(&body, edges)| edges.iter().map(move |edge| length(body, edge)));
+    touch.length > MEETING * lengths.fold(f64::INFINITY, f64::min)
+}
+
+/// Adds a line; the middle is that of the longest.
+fn add((length, middle): &mut Line, touch: &Touch) {
+    if touch.length > *length {
+        *middle = touch.middle;
+    }
+    *length += touch.length;
+}
+
+/// "(1, 0.5)".
+fn near(body: &Body, [x, y]: [f64; 2]) -> String {
+    format!("({}, {})", short(body, x), short(body, y))
+}
+
+/// A length with as many decimals as the extent of the mesh asks for, and no zeros behind them.
+fn short(body: &Body, value: f64) -> String {
+    let extent = body.mesh.points.iter().flatten().fold(0.0_f64, |extent, x| extent.max(x.abs()));
+    let decimals = (DIGITS - 1.0 - extent.log10().floor()).clamp(0.0, 30.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.into() }
+}
