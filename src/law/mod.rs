@@ -8,6 +8,7 @@ mod balance;
 mod coulomb;
 mod cracking;
 mod elastic;
+mod lagged;
 pub mod path;
 
 pub use admissible::Inadmissible;
@@ -130,6 +131,33 @@ impl Law {
             Law::Elastic(law) => [law.normal_stiffness, law.tangential_stiffness],
             Law::Coulomb(law) => [law.normal_stiffness, law.tangential_stiffness],
             Law::Cracking(law) => [law.normal_stiffness, law.tangential_stiffness],
+        }
+    }
+
+    /// True for a softening law whose sides move apart as they slide under compression.
+    pub fn dilates(&self) -> bool {
+        matches!(self, Law::Cracking(law) if law.dilatancy_stress > 0.0)
+    }
+
+    /// Steepest loss of traction per jump that the law has [stress / length]; zero if it has no softening.
+    pub fn steepest_softening(&self) -> f64 {
+        match self {
+            Law::Elastic(_) | Law::Coulomb(_) => 0.0,
+            Law::Cracking(law) => law.steepest_softening(),
+        }
+    }
+
+    /// Fraction of a straight way to a jump at which a point of a softening law that is inside its surface reaches it; none if
+    /// it does not, or is on it already.
+    pub fn onset(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+        self.onset_or_on(jump, old).filter(|fraction| *fraction > 0.0)
+    }
+
+    /// The same, 0 for a point that is on its surface.
+    pub fn onset_or_on(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+        match self {
+            Law::Elastic(_) | Law::Coulomb(_) => None,
+            Law::Cracking(law) => law.onset(jump, old),
         }
     }
 

@@ -48,7 +48,7 @@ const STICK: u8 = 0;
 /// Status of a closed point that slides.
 const SLIP: u8 = 2;
 /// Status of an open point.
-const OPEN: u8 = 4;
+pub(super) const OPEN: u8 = 4;
 
 impl Coulomb {
     /// Stiffnesses above zero; friction, cohesion and dilatancy zero or more; dilatancy at most the friction.

@@ -86,6 +86,15 @@ impl Cracking {
         warnings
     }
 
+    /// Steepest loss of traction per jump: in tension, in shear under compression and by the loss of tensile strength.
+    pub fn steepest_softening(&self) -> f64 {
+        let per = |energy: f64, alpha: f64| if energy > 0.0 { alpha.abs().exp() / energy } else { 0.0 };
+        let tension = per(self.fracture_energy_i, self.alpha_tensile_strength);
+        let shear = per(self.fracture_energy_iia, self.alpha_cohesion);
+        let (chi, c) = (self.tensile_strength, self.cohesion);
+        (chi * chi * tension).max(c * c * shear).max(chi * self.tan_friction * c * tension)
+    }
+
     fn exponents(&self) -> [(&'static str, f64); 5] {
         [
             ("alpha_tensile_strength", self.alpha_tensile_strength),

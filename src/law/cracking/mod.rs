@@ -103,6 +103,11 @@ impl Cracking {
         }
     }
 
+    /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
+    pub(super) fn onset(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+        Surface::new(self).onset_of(jump, old)
+    }
+
     /// One backward Euler step by the safe nested solver alone: traction (n, t), W. What Newton is checked against.
     pub fn respond_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
         Surface::new(self).step_nested(jump, old)

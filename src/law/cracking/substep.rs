@@ -95,6 +95,14 @@ impl Surface {
         Ok(self.response(jump, old, &point, &slopes))
     }
 
+    /// Fraction of the way to a jump at which the hyperbola is met; none if it is not.
+    pub fn onset_of(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+        let change = jump - old.jump;
+        let trial = old.traction + self.stiff(change);
+        let outside = self.at(old.fracture_work).hyperbola(trial.x, trial.y) > self.margin(trial);
+        outside.then(|| self.onset(&Point::start(old), change).0)
+    }
+
     /// Fraction of the way at which an elastic point meets the hyperbola, and its derivative by the jump.
     ///
     /// F is convex along the way, not positive at its start and positive at its end: Newton from the end falls
