@@ -192,14 +192,22 @@ impl Form for Blocks<'_> {
         residual
     }
 
-    /// What springs would make of the misfit of jumps, and the misfit of the bodies' balance, over what joints and loads carry.
-    fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
+    /// What springs would make of the misfit of jumps, and the misfit of the bodies' balance, over what interfaces and loads carry.
+    /// A rigid motion of all makes no difference: jumps without interface forces count with the rigid motions found.
+    fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let end = self.first[self.joints.len()];
         let (mut misfit, mut scale) = (squares(&residual[end..]), squares(&target[end..]));
+        let mut free = target[..end].to_vec();
+        for block in &self.blocks {
+            for (i, &j) in block.touched.iter().enumerate() {
+                free[j] +=
+                    (0..block.moved.ncols()).map(|k| block.moved[(i, k)] * x[block.first + k]).sum::<f64>();
+            }
+        }
         for k in 0..self.joints.len() {
             misfit += squares(&self.springs[k].multiply(self.part(k, residual)));
-            let unlimited = squares(&self.springs[k].multiply(self.part(k, target)));
+            let unlimited = squares(&self.springs[k].multiply(self.part(k, &free)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }

@@ -25,6 +25,9 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 const SHOWN: f64 = 4.0;
 /// What is shown counts up to this: jumps that run away, where nothing holds the joint, would show anything.
 const SHOWN_MOST: f64 = 1e-10;
+/// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
+/// and nothing pushes then stays where it is.
+const FREE: f64 = 1e-12;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
 
@@ -35,6 +38,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most iterations.
     pub iterations: usize,
+    /// Give up if the residual has not halved in so many iterations.
+    pub patience: usize,
     /// Stay with the tangent of the sound joints: linear convergence only.
     pub initial_tangent: bool,
 }
@@ -80,6 +85,13 @@ pub(super) struct Evaluation<M> {
     pub(super) error: f64,
 }
 
+impl<M> Evaluation<M> {
+    fn into_iterate(self, x: Vec<f64>) -> Iterate<M> {
+        let Evaluation { jumps, tractions, forces, memory, error, .. } = self;
+        Iterate { x, jumps, tractions, forces, memory, iterations: 0, residuals: vec![error] }
+    }
+}
+
 /// Newton's method on one form; the tangents' patterns are built once.
 #[derive(Debug)]
 pub struct Newton {
@@ -115,6 +127,7 @@ impl Newton {
             return Err(Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 });
         };
         let mut residuals = vec![now.error];
+        let (mut mark, mut since) = (now.error, 0);
         for iterations in 0..=settings.iterations {
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
@@ -123,7 +136,12 @@ impl Newton {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
                 return Ok(Iterate { x, jumps, tractions, forces, memory, iterations, residuals });
             }
-            if iterations == settings.iterations {
+            if now.error < 0.5 * mark {
+                (mark, since) = (now.error, 0);
+            } else if iterations > 0 {
+                since += 1;
+            }
+            if iterations == settings.iterations || since >= settings.patience {
                 break;
             }
             let mut correction = self.correction(form, laws, &now, settings, iterations)?;
@@ -140,8 +158,67 @@ impl Newton {
             (x, now) = (next, there);
             residuals.push(now.error);
         }
-        let reason = format!("out of balance by {:.1e} after {} iterations", now.error, settings.iterations);
-        Err(unconverged(form, &reason, &now, settings.iterations))
+        let reason = format!("out of balance by {:.1e} after {} iterations", now.error, residuals.len() - 1);
+        Err(unconverged(form, &reason, &now, residuals.len() - 1))
+    }
+
+    /// The unknowns that the tangent leads to by a change of the target.
+    pub fn along<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        x: &[f64],
+        target: &[f64],
+        mut change: Vec<f64>,
+        settings: Settings,
+    ) -> Result<Vec<f64>, Unconverged> {
+        let now = evaluate(form, laws, x, target)?;
+        self.fill(form, laws, &now, settings);
+        if form.factor(&self.tangents) {
+            form.solve(&mut change);
+        }
+        Ok(x.iter().zip(&change).map(|(x, d)| x + d).collect())
+    }
+
+    /// What laws and form say at some unknowns.
+    pub fn look<L: Respond>(
+        &self,
+        form: &impl Form,
+        laws: &L,
+        x: &[f64],
+        target: &[f64],
+    ) -> Result<Iterate<L::Memory>, Unconverged> {
+        Ok(evaluate(form, laws, x, target)?.into_iterate(x.to_vec()))
+    }
+
+    /// The same, and again at the unknowns corrected by the factor at hand; with a change of the target also by as much of
+    /// it as keeps the correction across a way.
+    pub fn corrected<L: Respond>(
+        &self,
+        form: &impl Form,
+        laws: &L,
+        x: &[f64],
+        target: &[f64],
+        across: Option<(Vec<f64>, Vec<f64>)>,
+    ) -> Result<[Iterate<L::Memory>; 2], Unconverged> {
+        let here = evaluate(form, laws, x, target)?;
+        let mut correction = here.residual.clone();
+        form.solve(&mut correction);
+        let mut target = target.to_vec();
+        if let Some((change, way)) = across {
+            let mut along = change.clone();
+            form.solve(&mut along);
+            let dot = |a: &[f64]| a.iter().zip(&way).map(|(a, b)| a * b).sum::<f64>();
+            let more = dot(&correction) / dot(&along);
+            if more.is_finite() {
+                correction.iter_mut().zip(&along).for_each(|(d, z)| *d -= more * z);
+                target.iter_mut().zip(&change).for_each(|(b, change)| *b += more * change);
+            }
+        }
+        let target = &target;
+        let next: Vec<f64> = x.iter().zip(&correction).map(|(x, d)| x - d).collect();
+        let there = evaluate(form, laws, &next, target)?;
+        Ok([here.into_iterate(x.to_vec()), there.into_iterate(next)])
     }
 
     /// What rounding may leave of the residual: in the form's own terms, or as the laws show when the unknowns change in their
@@ -200,7 +277,18 @@ impl Newton {
                 stiffness.chunks_exact_mut(c * c).for_each(|d| laws.initial_stiffness(k, d));
                 tangent.fill(joint, &stiffness);
             } else {
-                tangent.fill(joint, stiffness);
+                let mut stiffness = stiffness.clone();
+                let c = joint.coupling.components;
+                let mut intact = vec![0.0; c * c];
+                laws.initial_stiffness(k, &mut intact);
+                for d in stiffness.chunks_exact_mut(c * c) {
+                    for i in (0..c * c).step_by(c + 1) {
+                        if d[i].abs() < FREE * intact[i] {
+                            d[i] = FREE * intact[i];
+                        }
+                    }
+                }
+                tangent.fill(joint, &stiffness);
             }
         }
     }

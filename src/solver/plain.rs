@@ -91,7 +91,7 @@ impl Form for Plain<'_> {
         (0..x.len()).map(|i| value(i) - target[i]).collect()
     }
 
-    /// Over what the bodies, the joints and the loads carry.
+    /// Over what the bodies, the interfaces and the loads carry; prescribed displacements are no forces.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &mut dyn Iterator<Item = f64>| v.map(|v| v * v).sum::<f64>();
         let misfit = squares(&mut residual.iter().copied());
@@ -100,7 +100,7 @@ impl Form for Plain<'_> {
         self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut joints));
         let scale = squares(&mut internal.into_iter())
             + squares(&mut joints.into_iter())
-            + squares(&mut target.iter().copied());
+            + squares(&mut target.iter().zip(&self.held).filter(|(_, held)| !**held).map(|(f, _)| *f));
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }
 
