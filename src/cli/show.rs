@@ -121,12 +121,9 @@ impl Show {
             .map(|(stage, seconds)| format!("{stage} {seconds:.2}"))
             .collect();
         if let Some(totals) = self.totals.as_ref().filter(|totals| totals.iterations > 0) {
-            let Totals { increments, iterations, halved, energy_balance, .. } = totals;
-            if let Some(warning) = totals.warning() {
-                self.warning(&warning);
-            }
+            let Totals { increments, parts, iterations, energy_balance, .. } = totals;
             self.line(&format!(
-                "solved   {increments} increments, {iterations} iterations, {halved} cuts; energies balance to {energy_balance:.1e}"
+                "solved   {increments} increments in {parts} parts, {iterations} iterations; energies balance to {energy_balance:.1e}"
             ));
         }
         self.line(&format!("time     {:.2} s: {}", done.clock.total(), stages.join(", ")));
@@ -137,22 +134,18 @@ impl Show {
     }
 }
 
-/// What happened in an increment besides: it had to be cut in parts, the path turned, it leapt to another branch.
+/// What happened in an increment besides: it took several parts, the path turned, it snapped to another branch.
 fn marks(now: &Totals, before: Option<&Totals>) -> String {
     let count = |of: &dyn Fn(&Totals) -> usize| of(now) - before.map_or(0, of);
     let mut marks = Vec::new();
-    match count(&|totals| totals.halved) {
-        0 => {}
-        1 => marks.push("cut once".into()),
-        n => marks.push(format!("cut {n} times")),
+    match count(&|totals| totals.parts) {
+        0 | 1 => {}
+        n => marks.push(format!("{n} parts")),
     }
-    for (what, places, new) in [
-        ("turns at", &now.turns, count(&|totals| totals.turns.len())),
-        ("leaps by", &now.leaps, count(&|totals| totals.leaps.len())),
-    ] {
-        let latest = &places[places.len() - new..];
-        marks.extend(latest.iter().map(|(_, _, level)| format!("{what} {level:.6}")));
-    }
+    let new = count(&|totals| totals.turns.len());
+    marks.extend(now.turns.iter().rev().take(new).map(|(_, _, level)| format!("turns at {level:.6}")));
+    let new = count(&|totals| totals.snaps.len());
+    marks.extend(now.snaps.iter().rev().take(new).map(|snap| format!("snaps at {:.6}", snap.load_factor)));
     marks.join(", ")
 }
 

@@ -31,8 +31,8 @@ pub enum Code {
     Locking,
     /// A body that next to nothing holds.
     HardlyHeld,
-    /// An increment of the load level that left the path of equilibria.
-    Leapt,
+    /// Where no equilibrium continues the path: a snap to another branch.
+    Snapped,
     /// A load that is zero everywhere.
     NoLoad,
     /// A key that the scene cannot use.
@@ -41,11 +41,19 @@ pub enum Code {
     Unconnected,
     /// Subdomains that touch and that no interface joins.
     Unjoined,
+    /// Loads and reactions that do not balance.
+    Unbalanced,
+    /// Energies that do not balance.
+    Energies,
+    /// Initial tractions that supports and loads do not hold.
+    InitialTraction,
+    /// A subdomain that nothing holds any more, and nothing pushes.
+    Unheld,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 17] = [
+    pub const ALL: [Code; 21] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -58,11 +66,15 @@ impl Code {
         Code::UnusedCells,
         Code::Locking,
         Code::HardlyHeld,
-        Code::Leapt,
+        Code::Snapped,
         Code::NoLoad,
         Code::IdleKey,
         Code::Unconnected,
         Code::Unjoined,
+        Code::Unbalanced,
+        Code::Energies,
+        Code::InitialTraction,
+        Code::Unheld,
     ];
 }
 

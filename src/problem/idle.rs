@@ -80,6 +80,7 @@ pub(super) fn keys(scene: &Scene, plans: &[Plan]) -> Vec<Warning> {
         let chosen = [
             ("tolerance", own.tolerance != usual.tolerance && scene.accuracy.is_none()),
             ("iterations", own.iterations != usual.iterations),
+            ("path_tolerance", own.path_tolerance != usual.path_tolerance && scene.accuracy.is_none()),
             ("tangent", own.tangent != usual.tangent),
         ];
         for (key, chosen) in chosen {

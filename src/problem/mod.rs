@@ -26,6 +26,7 @@ pub use history::Reaction;
 pub use initial::InitialTraction;
 pub use parts::subdomain_meshes;
 pub use probes::{BoundProbe, ProbeInput};
+pub use rigid::is_held;
 pub use stage::Stage;
 pub use stiffness::stiffness_number;
 pub use survey::Survey;

@@ -32,6 +32,8 @@ pub enum BoundProbe {
     EnergyStored,
     /// Dissipated energy.
     EnergyDissipated,
+    /// Released energy.
+    EnergyReleased,
     /// Work of loads and prescribed displacements.
     WorkExternal,
 }
@@ -51,6 +53,8 @@ pub struct ProbeInput<'a> {
     pub stored: f64,
     /// Dissipated energy.
     pub dissipated: f64,
+    /// Released energy.
+    pub released: f64,
     /// External work.
     pub work: f64,
 }
@@ -88,6 +92,7 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
                 }
                 Probe::EnergyStored => BoundProbe::EnergyStored,
                 Probe::EnergyDissipated => BoundProbe::EnergyDissipated,
+                Probe::EnergyReleased => BoundProbe::EnergyReleased,
                 Probe::WorkExternal => BoundProbe::WorkExternal,
             },
         ));
@@ -130,6 +135,7 @@ impl BoundProbe {
             }
             BoundProbe::EnergyStored => input.stored,
             BoundProbe::EnergyDissipated => input.dissipated,
+            BoundProbe::EnergyReleased => input.released,
             BoundProbe::WorkExternal => input.work,
         }
     }

@@ -28,6 +28,25 @@ struct Part {
     size: f64,
 }
 
+/// True if the supports alone resist every rigid motion of a subdomain.
+pub fn is_held(model: &Model, body: usize, held: &[bool]) -> bool {
+    let of = &model.bodies[body];
+    let mut gram = DMatrix::<f64>::zeros(3, 3);
+    let count = of.mesh.points.len() as f64;
+    let centre = [0, 1].map(|d| of.mesh.points.iter().map(|x| x[d]).sum::<f64>() / count);
+    let reach = |x: &[f64; 2]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
+    let size = of.mesh.points.iter().map(reach).fold(0.0, f64::max);
+    for (node, x) in of.mesh.points.iter().enumerate() {
+        let turn = [-(x[1] - centre[1]) / size, (x[0] - centre[0]) / size];
+        for d in (0..2).filter(|d| held[model.components * (of.first_node + node) + d]) {
+            let row = [f64::from(d == 0), f64::from(d == 1), turn[d]];
+            (0..3).for_each(|i| (0..3).for_each(|j| gram[(i, j)] += row[i] * row[j]));
+        }
+    }
+    let limit = FREE * gram.diagonal().max();
+    SymmetricEigen::new(gram).eigenvalues.min() > limit
+}
+
 /// Refuses the step if a body can move freely in it; warns if it almost can.
 pub(super) fn refuse_free_bodies(
     model: &Model,

@@ -4,6 +4,7 @@
 use super::course::Course;
 use super::engine::{Failure, Path};
 use super::loading::Start;
+use super::parts::Judged;
 use super::path::{SMALLER, SMALLEST, Standing, Step, TRACTIONS, USUAL, WIDE};
 use super::state::State;
 use crate::error::Result;
@@ -24,22 +25,25 @@ impl Course<'_, '_> {
                     let load = (level - at.level).abs() / part;
                     let tractions = if spent > 0.0 { self.far(at, &found) / (TRACTIONS * part) } else { 0.0 };
                     let far = load.max(tractions);
-                    if far <= WIDE {
+                    let Judged { error, .. } =
+                        self.judge(start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+                    if far <= WIDE && error <= 1.0 {
                         let iterations = found.iterations;
                         let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
                         self.take(start, found, at, level, spent)?;
-                        at.ratio = easier.min(1.0 / far);
+                        at.ratio = easier.min(1.0 / far).min((1.0 / error).sqrt());
                         return Ok(Ok(iterations));
                     }
                 }
                 Ok(_) => {
-                    if let Some(iterations) = self.by_load(start, at, 1.0, f64::INFINITY)? {
+                    if let Ok((iterations, _)) = self.by_load(start, at, 1.0, f64::INFINITY)? {
                         return Ok(Ok(iterations));
                     }
                 }
                 Err(Failure::Unconverged(failed)) => {
+                    at.tried += failed.iterations;
                     why = failed;
-                    self.totals.halved += 1;
+                    self.totals.rejected += 1;
                 }
                 Err(Failure::Unusable(_)) => {}
             }

@@ -1,25 +1,24 @@
-//! All steps with one engine: increments of the load level that are halved where there is no equilibrium and grow back, or
-//! the path of equilibria (`path`).
+//! All steps with one engine: increments of the load factor in as many parts as they need (`parts`), or the path of
+//! equilibria (`path`).
 
 use super::Clock;
-use super::engine::{Engine, Failure};
+use super::engine::{Ahead, Engine, Failure};
 use super::failure::{no_equilibrium, singular, unusable};
 use super::loading::Start;
-use super::march::{Place, Totals, Visit};
+use super::march::{NO_BALANCE, Place, Totals, Visit};
+use super::parts::{Leg, Progress};
 use super::state::State;
 use super::strategy::active;
-use crate::error::Result;
-use crate::problem::{Problem, Stage};
+use super::summary::{self, Resultant};
+use crate::error::{Error, Result};
+use crate::problem::{Problem, Stage, is_held};
 use crate::scene::{Control, Fields};
 use crate::solver::Unconverged;
 
-/// An increment is halved at most this many times before the joints are let go, and so many times more if they find no rest.
-const HALVINGS: i32 = 10;
-const LAST: i32 = 6;
-/// How many times wider than half of it an increment may be that follows one in which the joints were let go.
-const AFTER: f64 = 8.0;
-/// An increment found in at most this many iterations is followed by one of twice the size.
-const EASY: usize = 8;
+/// Initial tractions whose forces are out of balance by less than this part are so by rounding.
+const ROUNDED: f64 = 1e-10;
+/// Rounding of forces, of those that the displacements would make.
+const ROUNDING: f64 = 1e-11;
 
 /// A march under way.
 pub(super) struct Course<'a, 'b> {
@@ -28,6 +27,8 @@ pub(super) struct Course<'a, 'b> {
     pub(super) totals: Totals,
     pub(super) state: State,
     initial: Vec<f64>,
+    /// Largest sum of the magnitudes of loads and reactions so far [force].
+    forces: f64,
     clock: &'b mut Clock,
     begin: &'b mut dyn FnMut(&mut Clock, &'static str),
     visit: Visit<'b>,
@@ -44,7 +45,7 @@ impl<'a, 'b> Course<'a, 'b> {
         visit: Visit<'b>,
     ) -> Course<'a, 'b> {
         let (initial, state) = (initial_force(problem), State::unloaded(problem));
-        Course { problem, engine, totals, state, initial, clock, begin, visit }
+        Course { problem, engine, totals, state, initial, forces: 0.0, clock, begin, visit }
     }
 
     /// Goes through all steps.
@@ -59,6 +60,9 @@ impl<'a, 'b> Course<'a, 'b> {
                 self.visit(Place { step, stage, number: 0, ..self.place(step, stage) })?;
             }
             let initial = self.initial.clone();
+            if step == 0 {
+                self.settle(stage, &initial)?;
+            }
             let start = Start::new(problem, stage, &initial, &self.state.snapshot.u, &self.state.reactions);
             match stage.control {
                 Control::Auto | Control::Arclength if !active(problem).is_empty() => {
@@ -69,6 +73,50 @@ impl<'a, 'b> Course<'a, 'b> {
         }
         self.clock.begin("end");
         Ok(self.totals)
+    }
+
+    /// Lets initial tractions that supports and loads do not hold relax, before the first increment.
+    fn settle(&mut self, stage: &'a Stage, initial: &[f64]) -> Result<()> {
+        let problem = self.problem;
+        let mut tractions = vec![0.0; problem.model.dofs()];
+        let mut sum = 0.0;
+        for (joint, (_, initial)) in problem.model.joints.iter().zip(&problem.laws) {
+            let at: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
+            if at.iter().any(|t| *t != 0.0) {
+                joint.add_force(&at, &mut tractions);
+            }
+        }
+        sum += tractions.iter().map(|f| f.abs()).sum::<f64>();
+        if sum == 0.0 {
+            return Ok(());
+        }
+        let start = Start::new(problem, stage, initial, &self.state.snapshot.u, &self.state.reactions);
+        let load = start.at(0.0)?;
+        // forces of what is not in equilibrium at the start, on free dofs
+        let left: Vec<f64> = (0..tractions.len())
+            .map(|i| if stage.held[i] { 0.0 } else { load.force[i] + load.released[i] - tractions[i] })
+            .collect();
+        let rest = left.iter().map(|f| f.abs()).sum::<f64>() / sum;
+        if rest <= ROUNDED {
+            return Ok(());
+        }
+        self.stage("solve");
+        self.engine.prepare(None, &[]);
+        self.state.open(None);
+        let released = self.engine.solve(&self.state, &load, Ahead::default(), true);
+        let found = released.map_err(|failure| match failure {
+            Failure::Unconverged(why) => no_equilibrium(problem, stage, 1, 0, 0.0, &why),
+            Failure::Unusable(error) => unusable(stage, 1, 0, error),
+        })?;
+        self.totals.iterations += found.iterations;
+        let work = |u: &[f64]| 0.5 * left.iter().zip(u).map(|(f, u)| f * u).sum::<f64>();
+        let released = found.solution.as_ref().map_or(0.0, |solution| work(&solution.u));
+        self.engine.accept();
+        self.state.accept(problem, found, load);
+        self.state.released += released;
+        self.state.recover(problem);
+        self.totals.initial = [rest, released];
+        Ok(())
     }
 
     /// A step in equal increments of the load level.
@@ -87,69 +135,19 @@ impl<'a, 'b> Course<'a, 'b> {
         self.engine.prepare(ramp.as_ref(), &measures);
         self.state.open(ramp.filter(|_| thrifty).map(|ramp| start.ledger(&ramp)));
         let part = 1.0 / stage.increments as f64;
-        let (mut level, mut width, mut last) = (0.0, part, f64::INFINITY);
+        let mut at = Progress::new(part);
         for number in 1..=stage.increments {
             let goal = number as f64 / stage.increments as f64;
-            let mut iterations = 0;
-            let mut lost = None;
-            while level < goal {
-                self.stage("solve");
-                let reached = if level + 1.001 * width >= goal { goal } else { level + width };
-                let load = start.at(reached)?;
-                let complete = !thrifty || number == stage.increments;
-                let tried = match self.engine.solve(&self.state, &load, (reached - level) / last, complete) {
-                    Ok(found) => self.leap(start, [level, reached], last, found)?,
-                    Err(Failure::Unconverged(why)) => Err(why),
-                    Err(Failure::Unusable(error)) => {
-                        return Err(unusable(stage, number, self.totals.increments, error));
-                    }
-                };
-                match tried {
-                    Ok((found, leap)) => {
-                        iterations += found.iterations;
-                        if found.iterations <= EASY {
-                            width = (2.0 * width).min(part);
-                        }
-                        if let Some(level) = leap {
-                            self.leapt(stage, level);
-                        }
-                        self.engine.accept();
-                        self.state.accept(problem, found, load);
-                        (last, level) = (reached - level, reached);
-                    }
-                    Err(why) => {
-                        iterations += why.iterations;
-                        self.totals.halved += 1;
-                        width = 0.5 * (reached - level);
-                        let smallest = 0.5_f64.powi(HALVINGS) * part;
-                        if width >= smallest {
-                            continue;
-                        }
-                        match self.engine.relax(&self.state, &load, complete) {
-                            Ok(found) => {
-                                iterations += found.iterations;
-                                let leaps = self.leaps(&found);
-                                if leaps {
-                                    self.leapt(stage, reached);
-                                }
-                                self.engine.accept();
-                                self.state.accept(problem, found, load);
-                                last = if leaps { f64::INFINITY } else { reached - level };
-                                width = (AFTER * width).min(part);
-                                level = reached;
-                            }
-                            Err(_) if width >= 0.5_f64.powi(LAST) * smallest => {}
-                            Err(_) => {
-                                lost = Some(why);
-                                break;
-                            }
-                        }
-                    }
-                }
-            }
-            let between = level > (number - 1) as f64 / stage.increments as f64;
-            let place = Place { number, load_factor: level, iterations, ..self.place(step, stage) };
-            if lost.is_none() || between {
+            self.stage("solve");
+            let before = at.level;
+            let complete = !thrifty || number == stage.increments;
+            let went = self.advance(&Leg { start, stage, number, goal, part, complete }, &mut at)?;
+            let (iterations, lost) = match went {
+                Ok(iterations) => (iterations, None),
+                Err(why) => (why.iterations, Some(why)),
+            };
+            let place = Place { number, load_factor: at.level, iterations, ..self.place(step, stage) };
+            if lost.is_none() || at.level > before {
                 self.row(Place { last: number == stage.increments && lost.is_none(), ..place })?;
             } else {
                 self.totals.iterations += iterations;
@@ -159,11 +157,6 @@ impl<'a, 'b> Course<'a, 'b> {
             }
         }
         Ok(())
-    }
-
-    /// Keeps that the next increment leaps at a load level.
-    pub(super) fn leapt(&mut self, stage: &Stage, level: f64) {
-        self.totals.leaps.push((self.totals.increments + 1, stage.name.clone(), level));
     }
 
     /// A place in a step, to be filled in.
@@ -191,10 +184,59 @@ impl<'a, 'b> Course<'a, 'b> {
             // every stress counts in these
             return Err(unusable(place.stage, place.number, self.totals.increments, f64::INFINITY));
         }
+        let imbalance = self.imbalance();
+        if imbalance > NO_BALANCE {
+            let reason = format!("loads and reactions are out of balance by {imbalance:.1e} of their sum");
+            let (step, kept) = (place.stage.name.clone(), self.totals.increments);
+            return Err(Error::NoEquilibrium { step, increment: place.number, reason, kept });
+        }
         self.totals.increments += 1;
+        if imbalance > self.totals.imbalance {
+            (self.totals.imbalance, self.totals.imbalance_at) = (imbalance, self.totals.increments);
+        }
+        self.note_unheld(place.stage);
+        if self.state.energy_balance().abs() > self.totals.energy_balance {
+            self.totals.balance_at = self.totals.increments;
+        }
+        self.totals.released = self.state.released;
         self.totals.residual = self.totals.residual.max(self.state.residual);
         self.totals.energy_balance = self.totals.energy_balance.max(self.state.energy_balance().abs());
         self.visit(Place { increment: self.totals.increments, ..place })
+    }
+
+    /// Out-of-balance of loads and reactions over the largest sum of their magnitudes so far; 0 where nothing but rounding acts,
+    /// and where displacements were not recovered.
+    fn imbalance(&mut self) -> f64 {
+        if self.state.force.is_empty() {
+            return 0.0;
+        }
+        let model = &self.problem.model;
+        let Resultant { rest, scale } = summary::resultant(model, &self.state.force, &self.state.reactions);
+        let young = model.bodies.iter().map(|body| body.elasticity.young).fold(0.0, f64::max);
+        let moved = self.state.snapshot.u.iter().map(|u| u.abs()).fold(0.0, f64::max);
+        self.forces = self.forces.max(scale);
+        let rounding = ROUNDING * young * moved * model.thickness;
+        if rest > rounding { rest / self.forces } else { 0.0 }
+    }
+
+    /// Notes the subdomains whose interfaces are all open and that the supports leave free.
+    fn note_unheld(&mut self, stage: &Stage) {
+        let model = &self.problem.model;
+        let states = &self.state.snapshot.states;
+        let open = |k: usize| {
+            !states[k].is_empty()
+                && states[k].iter().all(|state| state.traction.x == 0.0 && state.traction.y == 0.0)
+        };
+        for (b, body) in model.bodies.iter().enumerate() {
+            let mut of = (0..model.joints.len()).filter(|&k| model.joints[k].bodies.contains(&b)).peekable();
+            if of.peek().is_some()
+                && of.all(open)
+                && !self.totals.unheld.iter().any(|(name, _)| *name == body.name)
+                && !is_held(model, b, &stage.held)
+            {
+                self.totals.unheld.push((body.name.clone(), self.totals.increments));
+            }
+        }
     }
 
     /// No equilibrium beyond the last increment: shows it once more with all its fields.

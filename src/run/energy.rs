@@ -1,7 +1,7 @@
 //! What an increment does to the energies of the state before it, and what the joints carry.
 
 use super::loading::Load;
-use super::state::{Answer, Found, JointAnswer, State};
+use super::state::{Found, JointAnswer, State};
 use crate::assembly::{Joint, Model};
 use crate::coupling::LawPoint;
 use crate::law::{self, Law};
@@ -18,18 +18,6 @@ impl State {
         problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
     }
 
-    /// What the trapezium has of the work of the joints beyond what they store and dissipate in an increment
-    /// [force × length].
-    pub(super) fn released(&self, problem: &Problem, found: &Found) -> f64 {
-        let of = |answer: &JointAnswer| {
-            let (law, _) = &problem.laws[answer.joint];
-            let points = problem.model.joints[answer.joint].coupling.points.iter();
-            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
-            points.zip(states).map(|(p, (old, new))| -p.weight * beyond_trapezium(law, old, new)).sum::<f64>()
-        };
-        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
-    }
-
     /// What the joints carry, as the mean square of their tractions times length [stress² × length].
     pub(super) fn carried(&self, problem: &Problem) -> f64 {
         let joints = problem.model.joints.iter().zip(&self.snapshot.states);
@@ -38,6 +26,15 @@ impl State {
             points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
         };
         joints.map(of).sum()
+    }
+
+    /// What they carry after what was found, measured alike.
+    pub(super) fn carried_after(&self, problem: &Problem, found: &Found) -> f64 {
+        let of = |answer: &JointAnswer| {
+            let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+            points.map(|(point, memory)| point.weight * memory.state.traction.norm_squared()).sum::<f64>()
+        };
+        found.joints.iter().map(of).sum()
     }
 
     /// Change of the tractions that an increment brings, measured alike.
@@ -49,6 +46,23 @@ impl State {
             points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
         };
         found.joints.iter().map(of).sum()
+    }
+
+    /// √(Σ w |Δr|²) of what was found, and that of open points that close.
+    pub(super) fn moved(&self, problem: &Problem, found: &Found) -> [f64; 2] {
+        let mut squares = [0.0; 2];
+        for answer in &found.joints {
+            let points = problem.model.joints[answer.joint].coupling.points.iter();
+            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
+            for (point, (old, new)) in points.zip(states) {
+                let moved = new.state.jump - old.jump;
+                squares[0] += point.weight * moved.norm_squared();
+                if old.traction.x == 0.0 && moved.x < 0.0 {
+                    squares[1] += point.weight * moved.x * moved.x;
+                }
+            }
+        }
+        squares.map(f64::sqrt)
     }
 
     /// ½ (f₀ + f₁) · Δu of loads and reactions.
@@ -71,16 +85,6 @@ impl State {
         };
         points.map(at).sum()
     }
-}
-
-/// ∫ t · dr − ½ (t₀ + t₁) · Δr of an increment at a law point.
-pub(super) fn beyond_trapezium(
-    law: &Law,
-    old: &law::State,
-    Answer { state: new, dissipation, .. }: &Answer,
-) -> f64 {
-    let along = elastic_energy(law, new) - elastic_energy(law, old) + dissipation;
-    along - 0.5 * (old.traction + new.traction).dot(&(new.jump - old.jump))
 }
 
 /// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use super::estimate::{Estimate, Way};
 use super::loading::Load;
 use super::state::{Found, State};
 use crate::problem::Problem;
@@ -17,6 +18,24 @@ pub(super) enum Failure {
     Unconverged(Unconverged),
     /// Nothing will help: rounding or overflow leaves this backward error.
     Unusable(f64),
+}
+
+/// Where an equilibrium is sought.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Ahead {
+    /// The last change of the unknowns is repeated this many times.
+    pub(super) changes: f64,
+    /// Only as far as shows which points go on cracking: others may be about to.
+    pub(super) near: bool,
+}
+
+/// A viscous step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Viscous {
+    /// c [stress / length].
+    pub(super) viscosity: f64,
+    /// The last change of the unknowns is repeated this many times, as a second start.
+    pub(super) ahead: f64,
 }
 
 /// A step on the path of equilibria.
@@ -45,19 +64,45 @@ pub(super) trait Engine {
         false
     }
 
-    /// Equilibrium at a load level, sought from the last accepted one and from `ahead` times the last change beyond it.
-    /// Displacements are recovered if they are asked for (`complete`) or needed.
-    fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure>;
+    /// Equilibrium at a load level, sought from the last accepted one and beyond it. Displacements are recovered if they are
+    /// asked for (`complete`) or needed.
+    fn solve(&mut self, state: &State, load: &Load, ahead: Ahead, complete: bool) -> Result<Found, Failure>;
 
-    /// Stable equilibrium at a load level where none continues the last accepted one: what the joints' drag leaves when they
-    /// have come to rest (`relax`).
-    fn relax(&mut self, state: &State, load: &Load, complete: bool) -> Result<Found, Failure>;
+    /// A backward Euler step of joints with a viscosity, under a load, from the last accepted state.
+    fn creep(
+        &mut self,
+        state: &State,
+        load: &Load,
+        viscous: Viscous,
+        complete: bool,
+    ) -> Result<Found, Failure>;
+
+    /// Error of what was found last, from the laws in the middle of the way there; none if nothing cracks, slides, opens or
+    /// closes, so that the way is straight.
+    fn estimate(&mut self, state: &State, found: &Found, way: Way) -> Option<Estimate>;
+
+    /// True if small parts lead to what was found last too: points that crack in it after others have reached their strength
+    /// (one linear system).
+    fn is_reached(&mut self, state: &State, found: &Found, end: &Load) -> bool;
+
+    /// Fraction of the way to a load, from that of the last accepted state, at which the first intact point of a softening law
+    /// reaches its strength; none if none does.
+    fn onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64>;
+
+    /// Relative out-of-balance force of the last accepted state under a load, without any viscosity.
+    fn imbalance(&self, state: &State, load: &Load) -> f64;
 
     /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure>;
 
     /// Displacements and reactions of the last accepted increment, if the engine goes without.
     fn recover(&self, load: &Load) -> Option<Solution>;
+
+    /// Keeps where the search stands, for `go_back`.
+    fn keep(&mut self);
+
+    /// Returns to what was kept last.
+    fn go_back(&mut self);
 
     /// What was found last is accepted: the next search starts from it.
     fn accept(&mut self);

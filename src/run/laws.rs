@@ -1,4 +1,5 @@
-//! The laws as Newton's method asks them: with the states at the last accepted increment, and with a drag on their jumps.
+//! The laws as Newton's method asks them: with the states at the last accepted part of an increment, and with a viscosity of
+//! their jumps.
 
 use nalgebra::Vector2;
 
@@ -7,10 +8,35 @@ use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::Respond;
 
-/// The laws with the states at the last accepted increment.
+/// The laws from given states.
+///
+/// ```text
+/// t(r; state) + c (r − r₀)        with a viscosity c; friction lags then (`law::lagged`)
+/// ```
+#[derive(Clone, Copy)]
 pub(super) struct Laws<'a> {
     pub(super) problem: &'a Problem,
     pub(super) old: &'a [Vec<law::State>],
+    /// c [stress / length], if there is one.
+    pub(super) viscosity: Option<f64>,
+    /// Friction lags wherever it is steep, not only where its slope has no bound.
+    pub(super) lags: bool,
+    /// Law points of every interface that are held elastic, if any are.
+    pub(super) held: Option<&'a [Vec<bool>]>,
+}
+
+impl Laws<'_> {
+    /// The answer of the law alone.
+    pub(super) fn own(&self, joint: usize, point: usize, jump: &[f64]) -> Result<law::Response, String> {
+        let (law, _) = &self.problem.laws[joint];
+        let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[joint][point]);
+        let stepping = self.problem.stepping[joint];
+        let answer = match self.viscosity {
+            Some(_) => law.respond_lagged(jump, old, stepping, self.lags),
+            None => law.respond(jump, old, stepping),
+        };
+        answer.map_err(|why| why.to_string())
+    }
 }
 
 impl Respond for Laws<'_> {
@@ -31,14 +57,31 @@ impl Respond for Laws<'_> {
             stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
             return Ok(Answer::default());
         }
-        let stepping = self.problem.stepping[joint];
-        let answer = law
-            .respond(Vector2::new(jump[0], jump[1]), &self.old[joint][point], stepping)
-            .map_err(|why| why.to_string())?;
+        if self.held.is_some_and(|held| held[joint][point]) {
+            let (k, old) = (law.elastic_stiffness(), &self.old[joint][point]);
+            (0..2).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
+            stiffness.copy_from_slice(&[k[0], 0.0, 0.0, k[1]]);
+            return Ok(Answer::default());
+        }
+        let answer = self.own(joint, point, jump)?;
         traction.copy_from_slice(answer.traction.as_slice());
         stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
-        let gradient = answer.dissipation_gradient.into();
-        Ok(Answer { state: answer.state, dissipation: answer.dissipation, gradient })
+        let mut viscous = [0.0; 2];
+        if let Some(c) = self.viscosity {
+            let old = &self.old[joint][point].jump;
+            for i in 0..2 {
+                viscous[i] = c * (jump[i] - old[i]);
+                traction[i] += viscous[i];
+                stiffness[3 * i] += c;
+            }
+        }
+        Ok(Answer {
+            state: answer.state,
+            dissipation: answer.dissipation,
+            gradient: answer.dissipation_gradient.into(),
+            released: answer.released,
+            viscous,
+        })
     }
 
     fn dissipation<'m>(&self, memory: &'m Answer) -> (f64, &'m [f64]) {
@@ -48,44 +91,5 @@ impl Respond for Laws<'_> {
     fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {
         let [kn, kt] = self.problem.laws[joint].0.elastic_stiffness();
         stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
-    }
-}
-
-/// The laws with a drag: each carries c (r − r₀) more, r₀ the jump of its state.
-pub(super) struct Dragged<'a> {
-    pub(super) laws: Laws<'a>,
-    /// c [stress / length].
-    pub(super) drag: f64,
-}
-
-impl Respond for Dragged<'_> {
-    type Memory = Answer;
-
-    fn respond(
-        &self,
-        joint: usize,
-        point: usize,
-        jump: &[f64],
-        traction: &mut [f64],
-        stiffness: &mut [f64],
-    ) -> Result<Answer, String> {
-        let answer = self.laws.respond(joint, point, jump, traction, stiffness)?;
-        if let Some(old) = self.laws.old[joint].get(point) {
-            traction
-                .iter_mut()
-                .zip(jump)
-                .zip(old.jump.iter())
-                .for_each(|((t, r), r0)| *t += self.drag * (r - r0));
-            stiffness.iter_mut().step_by(3).for_each(|d| *d += self.drag);
-        }
-        Ok(answer)
-    }
-
-    fn dissipation<'m>(&self, memory: &'m Answer) -> (f64, &'m [f64]) {
-        self.laws.dissipation(memory)
-    }
-
-    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {
-        self.laws.initial_stiffness(joint, stiffness);
     }
 }

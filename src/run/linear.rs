@@ -1,6 +1,7 @@
 //! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
 
-use super::engine::{Engine, Failure, Make, Path, bases};
+use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases};
+use super::estimate::{Estimate, Way};
 use super::loading::{Ledger, Load};
 use super::state::{Found, JointAnswer, State};
 use crate::assembly::Joint;
@@ -97,7 +98,7 @@ fn found(
         JointAnswer { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
     };
     let joints = jumps.into_iter().enumerate().map(answer).collect();
-    Found { solution, ledger, joints, iterations: 0, residuals: vec![backward_error] }
+    Found { solution, ledger, joints, released: 0.0, iterations: 0, residuals: vec![backward_error] }
 }
 
 /// A solution with a larger backward error is not kept.
@@ -144,7 +145,7 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         true
     }
 
-    fn solve(&mut self, _: &State, load: &Load, _: f64, complete: bool) -> Result<Found, Failure> {
+    fn solve(&mut self, _: &State, load: &Load, _: Ahead, complete: bool) -> Result<Found, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
         let usable = |found: &Found| found.residuals[0] <= UNUSABLE;
         let between =
@@ -159,8 +160,24 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
     }
 
-    fn relax(&mut self, _: &State, _: &Load, _: bool) -> Result<Found, Failure> {
+    fn creep(&mut self, _: &State, _: &Load, _: Viscous, _: bool) -> Result<Found, Failure> {
         Err(Failure::Unusable(f64::INFINITY)) // nothing softens
+    }
+
+    fn estimate(&mut self, _: &State, _: &Found, _: Way) -> Option<Estimate> {
+        None
+    }
+
+    fn is_reached(&mut self, _: &State, _: &Found, _: &Load) -> bool {
+        true
+    }
+
+    fn onset(&mut self, _: &State, _: &Load, _: &Load, _: f64) -> Option<f64> {
+        None
+    }
+
+    fn imbalance(&self, _: &State, _: &Load) -> f64 {
+        0.0
     }
 
     fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Found, f64), Failure> {
@@ -170,6 +187,10 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
     fn recover(&self, _: &Load) -> Option<Solution> {
         None
     }
+
+    fn keep(&mut self) {}
+
+    fn go_back(&mut self) {}
 
     fn accept(&mut self) {}
 }

@@ -7,26 +7,27 @@ mod clock;
 mod course;
 mod energy;
 mod engine;
+mod estimate;
 mod failure;
 mod folder;
 mod laws;
-mod leap;
 mod linear;
 mod loading;
 mod march;
 pub mod memory;
 mod newton;
+mod parts;
 mod path;
 pub mod point;
 mod prepare;
-mod relax;
 mod shared;
 mod state;
 mod strategy;
 mod summary;
+mod viscous;
 
 pub use clock::{Clock, processor};
-pub use march::{Means, Place, Totals, march, march_within};
+pub use march::{Means, Place, Snap, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
 pub use shared::Shared;
 pub use state::State;
@@ -192,6 +193,9 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
         Err(other) => return Err(other),
     };
     totals.reused.iter().for_each(|what| (listen.borrow_mut())(Event::Reused(what)));
+    for warning in &totals.warnings(problem.solution.path_tolerance) {
+        (listen.borrow_mut())(Event::Warning(warning));
+    }
     if let (Some(writer), Some(balance)) = (&writer, balance) {
         let end = end.as_ref().map(Error::to_string);
         writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock, end))?;

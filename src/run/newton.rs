@@ -1,20 +1,22 @@
 //! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
 
-use super::engine::{Engine, Failure, Make, Path, bases, condensations};
+use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases, condensations};
+use super::estimate::{Estimate, Way};
 use super::laws::Laws;
 use super::loading::{Ledger, Load};
-use super::relax::runs_away;
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
 use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
-    Point, Ramp, Settings, Solution, Unconverged,
+    Point, Ramp, Settings, Solution,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
 const NEAR: f64 = 1e-3;
+/// Largest relative residual of a viscous step: what is stored is found without viscosity.
+const CREEP: f64 = 1e-7;
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
 
@@ -29,9 +31,13 @@ pub(super) struct NewtonEngine<'a, F> {
     /// Unknowns of the form at the accepted increment before the last, at the last, and at what was found last.
     before: Vec<f64>,
     pub(super) unknowns: Vec<f64>,
-    found: Vec<f64>,
+    pub(super) found: Vec<f64>,
     /// Forces of the joints at the last accepted increment, and at what was found last.
     forces: [Vec<Vec<f64>>; 2],
+    /// Viscous tractions at the law points of every active joint, alike; none where nothing is viscous.
+    pub(super) viscous: [Vec<Vec<f64>>; 2],
+    /// Unknowns to which a search that failed returns.
+    kept: [Vec<f64>; 2],
     /// The step's loads are prepared; so are its measures; these are good enough; no increment has been tried yet.
     prepared: bool,
     measured: bool,
@@ -54,6 +60,8 @@ impl<'a, F> NewtonEngine<'a, F> {
             unknowns,
             found,
             forces: [Vec::new(), Vec::new()],
+            viscous: [Vec::new(), Vec::new()],
+            kept: [Vec::new(), Vec::new()],
             prepared,
             measured,
             trusted,
@@ -123,6 +131,15 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
 }
 
 impl<F: Form> NewtonEngine<'_, F> {
+    /// The last accepted unknowns, and a multiple of their last change beyond.
+    pub(super) fn onwards(&self, ahead: f64) -> Vec<f64> {
+        if ahead == 0.0 {
+            return self.unknowns.clone();
+        }
+        let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
+        self.unknowns.iter().zip(&self.before).map(along).collect()
+    }
+
     /// Equilibrium under a load, sought from the better of two starts.
     fn solve_from(
         &mut self,
@@ -140,11 +157,6 @@ impl<F: Form> NewtonEngine<'_, F> {
             let starts = [&near, &start];
             let iterate = newton.solve(form, laws, &starts, &target, self.settings);
             let iterate = iterate.map_err(Failure::Unconverged)?;
-            if let Some(point) = runs_away(self.problem, laws.old, form.active(), &iterate.jumps, load) {
-                let (reason, worst) = ("nothing holds what slides or opens".into(), vec![point]);
-                let iterations = iterate.iterations;
-                return Err(Failure::Unconverged(Unconverged { reason, worst, iterations }));
-            }
             residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
             if !complete {
                 break (iterate, None);
@@ -165,7 +177,7 @@ impl<F: Form> NewtonEngine<'_, F> {
             true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
             false => None,
         };
-        Ok(self.found(solution, ledger, residuals, iterate))
+        Ok(self.found(solution, ledger, residuals, laws, iterate))
     }
 
     /// b of a load.
@@ -187,8 +199,10 @@ impl<F: Form> NewtonEngine<'_, F> {
         solution: Option<Solution>,
         ledger: Option<Ledger>,
         residuals: Vec<f64>,
+        laws: &Laws,
         iterate: Iterate<Answer>,
     ) -> Found {
+        let released = self.keep_viscous(laws, &iterate);
         (self.found, self.forces[1]) = (iterate.x, iterate.forces);
         let active = self.form.iter().flat_map(|(_, form, _)| form.active());
         let joints = active.zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
@@ -198,7 +212,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
-        Found { solution, ledger, joints: joints.collect(), iterations, residuals }
+        Found { solution, ledger, joints: joints.collect(), released, iterations, residuals }
     }
 }
 
@@ -223,30 +237,74 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         }
     }
 
-    fn solve(&mut self, state: &State, load: &Load, ahead: f64, complete: bool) -> Result<Found, Failure> {
-        let onwards = |part: f64| -> Vec<f64> {
-            let along = |(now, before): (&f64, &f64)| now + part * ahead * (now - before);
-            self.unknowns.iter().zip(&self.before).map(along).collect()
+    fn solve(&mut self, state: &State, load: &Load, ahead: Ahead, complete: bool) -> Result<Found, Failure> {
+        let Ahead { changes, near } = ahead;
+        let starts =
+            [self.onwards(NEAR * changes), self.onwards(if near { NEAR * changes } else { changes })];
+        let laws = Laws {
+            problem: self.problem,
+            old: &state.snapshot.states,
+            viscosity: None,
+            lags: false,
+            held: None,
         };
-        let starts = [onwards(NEAR), onwards(1.0)];
-        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
         self.solve_from(starts, &laws, load, complete)
     }
 
-    fn relax(&mut self, state: &State, load: &Load, complete: bool) -> Result<Found, Failure> {
-        let rest = self.let_go(&state.snapshot.states, load)?;
-        let laws = Laws { problem: self.problem, old: &rest.states };
-        let mut found = self.solve_from([rest.x.clone(), rest.x], &laws, load, complete)?;
-        for (answer, spent) in found.joints.iter_mut().zip(&rest.spent) {
-            answer.memory.iter_mut().zip(spent).for_each(|(answer, spent)| answer.dissipation += spent);
+    fn creep(
+        &mut self,
+        state: &State,
+        load: &Load,
+        Viscous { viscosity, ahead }: Viscous,
+        complete: bool,
+    ) -> Result<Found, Failure> {
+        let starts = [self.unknowns.clone(), self.onwards(ahead)];
+        let (problem, old) = (self.problem, &state.snapshot.states);
+        let laws = Laws { problem, old, viscosity: Some(viscosity), lags: false, held: None };
+        let settings = self.settings;
+        let tolerance = settings.tolerance.max(CREEP);
+        self.settings = Settings { tolerance, initial_tangent: false, ..settings };
+        let mut found = self.solve_from(starts.clone(), &laws, load, complete);
+        if let Err(Failure::Unconverged(first)) = &found
+            && self.problem.laws.iter().any(|(law, _)| law.dilates())
+        {
+            let tried = first.iterations;
+            found = self.solve_from(starts, &Laws { lags: true, ..laws }, load, complete);
+            match &mut found {
+                Ok(found) => found.iterations += tried,
+                Err(Failure::Unconverged(why)) => why.iterations += tried,
+                Err(Failure::Unusable(_)) => {}
+            }
         }
-        found.iterations += rest.iterations;
-        Ok(found)
+        self.settings = settings;
+        found
+    }
+
+    fn estimate(&mut self, state: &State, found: &Found, way: Way) -> Option<Estimate> {
+        self.estimate_part(state, found, way)
+    }
+
+    fn is_reached(&mut self, state: &State, found: &Found, end: &Load) -> bool {
+        self.late_points_crack(state, found, end).unwrap_or(false)
+    }
+
+    fn onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64> {
+        self.first_onset(state, load, now, ahead)
+    }
+
+    fn imbalance(&self, state: &State, load: &Load) -> f64 {
+        self.out_of_balance(state, load).unwrap_or(f64::INFINITY)
     }
 
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let laws = Laws { problem: self.problem, old: &state.snapshot.states };
+        let laws = Laws {
+            problem: self.problem,
+            old: &state.snapshot.states,
+            viscosity: None,
+            lags: false,
+            held: None,
+        };
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = Point { x: self.unknowns.clone(), level };
@@ -272,7 +330,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         };
         let (loaded, prescribed) = (at(&path.ramp.force), at(&path.ramp.prescribed));
         let solution = form.recover(&iterate.x, &iterate.forces, &loaded, &prescribed);
-        let found = self.found(Some(solution), None, iterate.residuals.clone(), iterate);
+        let found = self.found(Some(solution), None, iterate.residuals.clone(), &laws, iterate);
         Ok((found, level))
     }
 
@@ -281,8 +339,18 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         Some(form.recover(&self.unknowns, &self.forces[0], &load.loaded, &load.prescribed))
     }
 
+    fn keep(&mut self) {
+        self.kept = [self.before.clone(), self.unknowns.clone()];
+    }
+
+    fn go_back(&mut self) {
+        [self.before, self.unknowns] = std::mem::take(&mut self.kept);
+        self.viscous[0].clear();
+    }
+
     fn accept(&mut self) {
         self.forces.swap(0, 1);
+        self.viscous.swap(0, 1);
         std::mem::swap(&mut self.before, &mut self.unknowns);
         std::mem::swap(&mut self.unknowns, &mut self.found);
     }

@@ -6,9 +6,10 @@
 //! increments have, until the load level reaches its end for good.
 
 use super::course::Course;
-use super::engine::{Failure, Path};
+use super::engine::{Ahead, Failure, Path};
 use super::loading::Start;
 use super::march::Place;
+use super::parts::{Judged, Leg, Progress};
 use super::state::{Found, State};
 use crate::error::Result;
 use crate::problem::Stage;
@@ -26,15 +27,16 @@ pub(super) const SMALLEST: usize = 20;
 /// `TRACTIONS` times an increment's part may change.
 pub(super) const WIDE: f64 = 2.0;
 pub(super) const TRACTIONS: f64 = 4.0;
-/// An increment of the load level that dissipates more than so many times what the last one makes expect has leapt to another
-/// branch.
-const LEAP: f64 = 4.0;
 /// The first increment that dissipates is divided down to this part, to begin where it does.
 const LEAST: f64 = 1e-3;
-/// Widths of the increment in which the joints are let go that are tried.
-const TRIES: usize = 5;
 /// Joints that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
+/// A row by the load factor dissipates at most so many times what the last one makes expect, so that rows follow the path closely.
+const ROWS: f64 = 4.0;
+/// Sizes of a part by the load factor that are tried where the path rises, unless its error is so many times the tolerance.
+const RISING: usize = 2;
+const PATIENCE: usize = 16;
+const FAR_OFF: f64 = 100.0;
 /// Most increments per increment of the scene.
 const MOST: usize = 1000;
 
@@ -52,9 +54,14 @@ pub(super) struct Standing {
     /// Length of the next step, of the last one.
     pub(super) ratio: f64,
     /// The most that the joints have carried, as `State::carried`.
-    most: f64,
-    /// Part of an increment by which the next leap goes on.
+    pub(super) most: f64,
+    /// Size of the next part by the load factor.
     width: f64,
+    /// Steps along the path before the load factor is tried again, now and after the next failure.
+    wait: usize,
+    patience: usize,
+    /// Iterations of searches that were not kept.
+    pub(super) tried: usize,
 }
 
 impl<'a> Course<'a, '_> {
@@ -72,7 +79,10 @@ impl<'a> Course<'a, '_> {
             amount: 0.0,
             ratio: 1.0,
             most: 0.0,
-            width: LEAST,
+            width: part,
+            wait: 0,
+            patience: 1,
+            tried: 0,
         };
         let mut rising = 0.0;
         let mut passed = [(self.state.dissipated, 0.0); 3];
@@ -85,16 +95,18 @@ impl<'a> Course<'a, '_> {
                 _ if at.spent > 0.0 => self.along(start, &ramp, &mut at, part),
                 _ => self.sound(start, &ramp, &mut at, part),
             };
-            let iterations = match found? {
-                Ok(iterations) => iterations,
-                Err(why) => match self.let_go(start, &mut at, stage, part)? {
-                    Some(iterations) => iterations,
-                    None => {
-                        let place = Place { number, load_factor: at.level, ..self.place(step, stage) };
-                        return self.stop(place, start, &why);
-                    }
-                },
-            };
+            let tried = std::mem::take(&mut at.tried);
+            let iterations = tried
+                + match found? {
+                    Ok(iterations) => iterations,
+                    Err(_) => match self.go_on(start, &mut at, stage, part)? {
+                        Ok(iterations) => iterations,
+                        Err(why) => {
+                            let place = Place { number, load_factor: at.level, ..self.place(step, stage) };
+                            return self.stop(place, start, &why);
+                        }
+                    },
+                };
             passed = [passed[1], passed[2], (self.state.dissipated, at.level)];
             if rising * (at.level - before) < 0.0 {
                 self.totals.turns.push((self.totals.increments, stage.name.clone(), vertex(passed)));
@@ -119,14 +131,14 @@ impl<'a> Course<'a, '_> {
     /// An increment of the load level if nothing dissipates in it; else a first step on the path.
     fn sound(&mut self, start: &Start, ramp: &Ramp, at: &mut Standing, part: f64) -> Result<Step> {
         let reached = if at.level + 1.001 * part >= 1.0 { 1.0 } else { at.level + part };
-        if let Some(iterations) = self.by_load(start, at, reached, 0.0)? {
+        if let Ok((iterations, _)) = self.by_load(start, at, reached, 0.0)? {
             return Ok(Ok(iterations));
         }
         // up to where something begins to dissipate: what follows is compared with the state there
         let (begin, mut width, mut all) = (at.level, part, 0);
         while width > LEAST * part {
             width *= 0.5;
-            all += self.by_load(start, at, at.level + width, 0.0)?.unwrap_or(0);
+            all += self.by_load(start, at, at.level + width, 0.0)?.map_or(0, |(iterations, _)| iterations);
         }
         if at.level - begin > 2.0 * LEAST * part {
             return Ok(Ok(all));
@@ -137,10 +149,22 @@ impl<'a> Course<'a, '_> {
             let path = Path { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
             match self.engine.follow(&self.state, at.level, &path) {
                 Ok((found, level)) if self.far(at, &found) <= WIDE * TRACTIONS * part => {
+                    let judged =
+                        self.judge(start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+                    at.tried += judged.solved;
+                    if judged.error > 1.0 {
+                        at.tried += found.iterations;
+                        self.totals.rejected += 1;
+                        amount *= SMALLER;
+                        continue;
+                    }
                     return self.take(start, found, at, level, amount).map(Ok);
                 }
                 Ok(_) => {}
-                Err(Failure::Unconverged(failed)) => why = failed,
+                Err(Failure::Unconverged(failed)) => {
+                    at.tried += failed.iterations;
+                    why = failed;
+                }
                 Err(Failure::Unusable(_)) => {}
             }
             amount *= SMALLER;
@@ -150,12 +174,24 @@ impl<'a> Course<'a, '_> {
 
     /// The next step on the path, ending at the end of the load exactly.
     fn along(&mut self, start: &Start, ramp: &Ramp, at: &mut Standing, part: f64) -> Result<Step> {
-        if at.change > 0.0 {
-            // the path rises: the load level may lead, as long as it jumps to no other branch
-            let reached = if at.level + 1.001 * part >= 1.0 { 1.0 } else { at.level + part };
-            let expected = at.spent * (reached - at.level) / at.change;
-            if let Some(iterations) = self.by_load(start, at, reached, LEAP * expected)? {
-                return Ok(Ok(iterations));
+        at.wait = at.wait.max(1) - 1;
+        if at.change > 0.0 && at.wait == 0 {
+            // the path rises: the load factor may lead, as long as it leads along the path
+            at.patience = (2 * at.patience).min(PATIENCE);
+            at.wait = at.patience;
+            for _ in 0..RISING {
+                let width = at.width.min(part);
+                let reached = if at.level + 1.001 * width >= 1.0 { 1.0 } else { at.level + width };
+                let expected = at.spent * (reached - at.level) / at.change;
+                match self.by_load(start, at, reached, ROWS * expected)? {
+                    Ok((iterations, error)) => {
+                        at.width = (width * (0.8 / error.sqrt()).clamp(1.0, 4.0)).min(part);
+                        (at.patience, at.wait) = (1, 0);
+                        return Ok(Ok(iterations));
+                    }
+                    Err(error) if error < FAR_OFF => at.width = width * (0.8 / error.sqrt()).min(0.5),
+                    Err(_) => break,
+                }
             }
         }
         let mut amount = at.amount;
@@ -167,22 +203,30 @@ impl<'a> Course<'a, '_> {
                     // how far this goes, in increments of the scene
                     let far = (level - at.level).abs() / part;
                     let far = far.max(self.far(at, &found) / (TRACTIONS * part));
-                    if far <= WIDE {
+                    let Judged { error, .. } =
+                        self.judge(start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+                    if far <= WIDE && error <= 1.0 {
                         let iterations = found.iterations;
                         let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
                         self.take(start, found, at, level, amount)?;
-                        at.amount = amount * easier.min(1.0 / far);
+                        at.amount = amount * easier.min(1.0 / far).min((1.0 / error).sqrt());
                         return Ok(Ok(iterations));
+                    }
+                    at.tried += found.iterations;
+                    self.totals.rejected += 1;
+                    if far <= WIDE && error < FAR_OFF {
+                        amount *= (0.8 / error.sqrt()).min(0.5) / SMALLER;
                     }
                 }
                 Ok((_, level)) if level >= 1.0 => {
-                    if let Some(iterations) = self.by_load(start, at, 1.0, amount)? {
+                    if let Ok((iterations, _)) = self.by_load(start, at, 1.0, f64::INFINITY)? {
                         return Ok(Ok(iterations));
                     }
                 }
                 Err(Failure::Unconverged(failed)) => {
+                    at.tried += failed.iterations;
                     why = failed;
-                    self.totals.halved += 1;
+                    self.totals.rejected += 1;
                 }
                 Ok(_) | Err(Failure::Unusable(_)) => {}
             }
@@ -191,33 +235,17 @@ impl<'a> Course<'a, '_> {
         Ok(Err(why))
     }
 
-    /// From where no step along the path is found to a stable equilibrium at a load level a little above, by letting the
-    /// joints go. That is a leap if it releases energy.
-    fn let_go(
-        &mut self,
-        start: &Start,
-        at: &mut Standing,
-        stage: &Stage,
-        part: f64,
-    ) -> Result<Option<usize>> {
-        for _ in 0..TRIES {
-            let level = (at.level + at.width * part).min(1.0);
-            let Ok(found) = self.engine.relax(&self.state, &start.at(level)?, true) else {
-                at.width *= SMALLER;
-                continue;
-            };
-            let leaps = self.leaps(&found);
-            let spent = if leaps { 0.0 } else { State::dissipation(self.problem, &found) };
-            let iterations = self.take(start, found, at, level, spent)?;
-            if leaps {
-                self.leapt(stage, level);
-                (at.change, at.width) = (0.0, LEAST);
-            } else {
-                at.width = (2.0 * at.width).min(1.0);
-            }
-            return Ok(Some(iterations));
+    /// From where no step along the path is found to an equilibrium an increment of the load factor further at most: the load
+    /// goes on while a viscosity holds the jumps.
+    fn go_on(&mut self, start: &Start, at: &mut Standing, stage: &Stage, part: f64) -> Result<Step> {
+        let goal = (at.level + part).min(1.0);
+        let leg = Leg { start, stage, number: 0, goal, part, complete: true };
+        let mut progress = Progress { level: at.level, most: at.most.sqrt(), ..Progress::new(part) };
+        let went = self.viscous(&leg, &mut progress, part)?;
+        if went.is_ok() {
+            (at.level, at.change, at.spent) = (progress.level, 0.0, 0.0);
         }
-        Ok(None)
+        Ok(went)
     }
 
     /// Change of what the joints carry, relative to what they carry now; of exhausted joints, to a small part of the most.
@@ -227,22 +255,38 @@ impl<'a> Course<'a, '_> {
         if change == 0.0 { 0.0 } else { (change / carried).sqrt() }
     }
 
-    /// An increment to a load level if it has an equilibrium that dissipates no more than an amount.
+    /// An increment to a load factor if it has an equilibrium that dissipates no more than an amount: iterations and error over
+    /// the tolerance, or the error of what was not kept.
     pub(super) fn by_load(
         &mut self,
         start: &Start,
         at: &mut Standing,
         level: f64,
         amount: f64,
-    ) -> Result<Option<usize>> {
+    ) -> Result<std::result::Result<(usize, f64), f64>> {
         let load = start.at(level)?;
         let ahead = if at.change > 0.0 { (level - at.level) / at.change } else { 0.0 };
-        let Ok(found) = self.engine.solve(&self.state, &load, ahead, true) else { return Ok(None) };
+        let ahead = Ahead { changes: ahead, near: false };
+        let found = match self.engine.solve(&self.state, &load, ahead, true) {
+            Ok(found) => found,
+            Err(failure) => {
+                if let Failure::Unconverged(why) = failure {
+                    at.tried += why.iterations;
+                }
+                self.totals.rejected += 1;
+                return Ok(Err(f64::INFINITY));
+            }
+        };
         let spent = State::dissipation(self.problem, &found);
-        if spent > amount {
-            return Ok(None);
+        let judged = self.judge(start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, false)?;
+        at.tried += judged.solved;
+        if spent > amount || judged.error > 1.0 {
+            at.tried += found.iterations;
+            self.totals.rejected += 1;
+            return Ok(Err(if spent > amount { f64::INFINITY } else { judged.error }));
         }
-        self.take(start, found, at, level, spent).map(Some)
+        let iterations = self.take(start, found, at, level, spent)?;
+        Ok(Ok((iterations, judged.error)))
     }
 
     /// Accepts what was found at a load level. Returns its iterations.
@@ -257,6 +301,7 @@ impl<'a> Course<'a, '_> {
         let iterations = found.iterations;
         self.engine.accept();
         self.state.accept(self.problem, found, start.at(level)?);
+        self.totals.parts += 1;
         (at.change, at.level, at.spent) = (level - at.level, level, spent);
         if spent > 0.0 {
             at.amount = spent;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use indexmap::IndexMap;
 use serde::Serialize;
 
-use super::{Clock, Totals, memory};
+use super::{Clock, Snap, Totals, memory};
 use crate::assembly::Model;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::Scene;
@@ -59,13 +59,17 @@ struct InterfaceSize {
 struct Solution {
     increments: usize,
     iterations: usize,
-    /// Increments that had to be halved.
-    halved: usize,
+    /// Parts in which the increments were found.
+    parts: usize,
+    /// Parts that were sought and not kept.
+    rejected: usize,
     factorisations: usize,
     /// Where the path of equilibria turned: after which increment, in which step, at which load level.
     turns: Vec<(usize, String, f64)>,
-    /// Where an increment of the load level leapt to another branch: in which increment, in which step, at which load level.
-    leaps: Vec<(usize, String, f64)>,
+    /// Snaps to another branch of equilibria.
+    snaps: Vec<Snap>,
+    /// Energy released by them [force × length].
+    released: f64,
     /// "joined", "in parts", "condensed", "blocks" or "plain".
     strategy: &'static str,
     /// Multiplications and additions of both forms, estimated; none where there is no choice.
@@ -74,7 +78,7 @@ struct Solution {
     /// Largest residual of all increments: the componentwise backward error max |r| / (|A| |u| + |f|) of a linear scene that
     /// is solved for displacements, the out-of-balance force relative to the forces in the model of any other.
     residual: f64,
-    /// Largest |work − stored − dissipated| over the largest of them.
+    /// Largest |work − stored − dissipated − released| over the largest of them.
     energy_balance: f64,
 }
 
@@ -111,10 +115,41 @@ pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balanc
         let dofs = model.dofs_of(b);
         (body.name.clone(), Forces { load: sum(&force[dofs.clone()]), reaction: sum(&reactions[dofs]) })
     });
-    let scale: f64 = force.iter().chain(reactions).map(|f| f.abs()).sum();
-    let rest = (whole.load[0] + whole.reaction[0]).hypot(whole.load[1] + whole.reaction[1]);
+    let Resultant { rest, scale } = resultant(model, force, reactions);
     let imbalance = if scale > 0.0 { rest / scale } else { 0.0 };
     Balance { whole, imbalance, subdomains: subdomains.collect() }
+}
+
+/// What is left of all loads and reactions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resultant {
+    /// The larger of the resultant force and the moment over half the extent of the model [force].
+    pub(super) rest: f64,
+    /// Sum of the magnitudes of all loads and reactions [force].
+    pub(super) scale: f64,
+}
+
+/// The resultant of loads and reactions.
+pub(super) fn resultant(model: &Model, force: &[f64], reactions: &[f64]) -> Resultant {
+    let points = || model.bodies.iter().flat_map(|body| &body.mesh.points);
+    let bound =
+        |d: usize, of: fn(f64, f64) -> f64, from: f64| points().fold(from, |bound, x| of(bound, x[d]));
+    let low = [0, 1].map(|d| bound(d, f64::min, f64::INFINITY));
+    let high = [0, 1].map(|d| bound(d, f64::max, f64::NEG_INFINITY));
+    let centre = [0, 1].map(|d| 0.5 * (low[d] + high[d]));
+    let (mut rest, mut moment, mut scale) = ([0.0; 2], 0.0, 0.0);
+    for (node, x) in points().enumerate() {
+        let at = |d: usize| force[model.components * node + d] + reactions[model.components * node + d];
+        let f = [at(0), at(1)];
+        (0..2).for_each(|d| rest[d] += f[d]);
+        moment += (x[0] - centre[0]) * f[1] - (x[1] - centre[1]) * f[0];
+        for d in 0..2 {
+            let dof = model.components * node + d;
+            scale += force[dof].abs() + reactions[dof].abs();
+        }
+    }
+    let arm = 0.5 * (high[0] - low[0]).hypot(high[1] - low[1]);
+    Resultant { rest: rest[0].hypot(rest[1]).max(moment.abs() / arm), scale }
 }
 
 /// Gathers the summary.
@@ -149,6 +184,7 @@ pub(super) fn summary<'a>(
         };
         (joint.name.as_str(), size)
     });
+    let told = totals.warnings(problem.solution.path_tolerance);
     let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();
     time.insert("total", clock.total());
     Summary {
@@ -165,9 +201,11 @@ pub(super) fn summary<'a>(
         solution: Solution {
             increments: totals.increments,
             iterations: totals.iterations,
-            halved: totals.halved,
+            parts: totals.parts,
+            rejected: totals.rejected,
             turns: totals.turns.clone(),
-            leaps: totals.leaps.clone(),
+            snaps: totals.snaps.clone(),
+            released: totals.released,
             factorisations: totals.factorisations,
             strategy: totals.strategy,
             operations: totals.estimate.map(|e| Operations {
@@ -183,6 +221,6 @@ pub(super) fn summary<'a>(
         equilibrium,
         time,
         peak_memory_bytes: memory::peak(),
-        warnings: problem.warnings.iter().chain(&totals.warning()).map(ToString::to_string).collect(),
+        warnings: problem.warnings.iter().chain(&told).map(ToString::to_string).collect(),
     }
 }

@@ -3,7 +3,7 @@
 //! ```text
 //!   density      parameters listed in the scene's `density` × factor; whole numbers stay whole, even ones even
 //!   order        the parameter `order` of every .geo that declares it
-//!   coupling, tolerance, law_tolerance      where the scene states none
+//!   coupling, tolerance, law_tolerance, path_tolerance      where the scene states none
 //!   increments   × factor, for steps that have several
 //! ```
 
@@ -40,6 +40,8 @@ pub struct Preset {
     pub tolerance: f64,
     /// Error control of the laws.
     pub law_tolerance: f64,
+    /// Error control of the increments.
+    pub path_tolerance: f64,
     /// Factor on the increments.
     pub increments: f64,
 }
@@ -52,18 +54,19 @@ impl Accuracy {
     /// What it sets.
     pub fn preset(self) -> Preset {
         let coupling = CouplingKind::Projected;
-        let preset = |density, order, tolerance, law_tolerance, increments| Preset {
+        let preset = |density, order, tolerance, law_tolerance, path_tolerance, increments| Preset {
             density,
             order,
             coupling,
             tolerance,
             law_tolerance,
+            path_tolerance,
             increments,
         };
         match self {
-            Accuracy::Draft => preset(0.25, 2, 1e-4, 1e-2, 0.25),
-            Accuracy::Normal => preset(0.5, 2, 1e-6, 1e-3, 0.5),
-            Accuracy::Fine => preset(1.0, 2, 1e-8, 1e-4, 1.0),
+            Accuracy::Draft => preset(0.25, 2, 1e-4, 1e-2, 1e-2, 0.25),
+            Accuracy::Normal => preset(0.5, 2, 1e-6, 1e-3, 1e-3, 0.5),
+            Accuracy::Fine => preset(1.0, 2, 1e-8, 1e-4, 1e-4, 1.0),
         }
     }
 }
@@ -85,6 +88,7 @@ pub(super) fn apply(scene: &mut Value, source: &Source, accuracy: Accuracy) -> R
     }
     default(Some(scene), "solution", json!({}));
     default(scene.get_mut("solution"), "tolerance", json!(preset.tolerance));
+    default(scene.get_mut("solution"), "path_tolerance", json!(preset.path_tolerance));
     for step in scene.get_mut("steps").and_then(Value::as_array_mut).into_iter().flatten() {
         if let Some(several) = step.get("increments").and_then(Value::as_u64).filter(|n| *n > 1) {
             step["increments"] = json!((several as f64 * preset.increments).ceil() as u64);

@@ -1,7 +1,8 @@
 //! Probes: what a column of history.csv asks for.
 //!
 //! `joint.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
-//! group, `joint.resultant_t` the force across a joint, `energy.stored`, `energy.dissipated`, `work.external`.
+//! group, `joint.resultant_t` the force across a joint, `energy.stored`, `energy.dissipated`,
+//! `energy.released`, `work.external`.
 
 use super::{Direction, JOINED, Scene};
 use crate::error::name_cure;
@@ -36,6 +37,8 @@ pub enum Probe {
     EnergyStored,
     /// Energy dissipated by the joints so far [force × length].
     EnergyDissipated,
+    /// Energy released by snaps so far [force × length].
+    EnergyReleased,
     /// Work done by loads and prescribed displacements so far [force × length].
     WorkExternal,
 }
@@ -66,6 +69,7 @@ impl Probe {
         match text {
             "energy.stored" => return Ok(Probe::EnergyStored),
             "energy.dissipated" => return Ok(Probe::EnergyDissipated),
+            "energy.released" => return Ok(Probe::EnergyReleased),
             "work.external" => return Ok(Probe::WorkExternal),
             _ => {}
         }

@@ -11,8 +11,11 @@ pub struct Solution {
     pub strategy: Strategy,
     /// Largest out-of-balance force, relative to the forces in the model.
     pub tolerance: f64,
-    /// Most iterations of an increment; one that needs more is cut in halves.
+    /// Most iterations of a part of an increment; what needs more is divided.
     pub iterations: usize,
+    /// Largest error of an increment against its parts: of the tractions of the interfaces over the largest carried so far, of
+    /// energies over the largest so far. What has a larger one is divided; with 1 increments stay as they are asked.
+    pub path_tolerance: f64,
     /// The tangent of the iteration.
     pub tangent: Tangent,
 }
@@ -60,6 +63,6 @@ pub enum Control {
 impl Default for Solution {
     fn default() -> Solution {
         let (strategy, tangent) = (Strategy::default(), Tangent::default());
-        Solution { strategy, tolerance: 1e-12, iterations: 25, tangent }
+        Solution { strategy, tolerance: 1e-12, iterations: 25, path_tolerance: 1e-3, tangent }
     }
 }

@@ -63,7 +63,8 @@ impl<'a> Gauge<'a> {
             ("stiffness_number", stiffness.fold(0.0, f64::max)),
             ("increments", totals.increments as f64),
             ("iterations", totals.iterations as f64),
-            ("halved", totals.halved as f64),
+            ("parts", totals.parts as f64),
+            ("rejected", totals.rejected as f64),
             ("factorisations", totals.factorisations as f64),
             ("factor_entries", totals.factor_entries as f64),
         ]);
