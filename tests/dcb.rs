@@ -23,7 +23,7 @@ struct Run {
     stored: Vec<f64>,
     dissipated: Vec<f64>,
     turns: usize,
-    leaps: usize,
+    snaps: usize,
 }
 
 /// The scene of the gallery with so many edges along the joint, opened to 4 mm.
@@ -60,7 +60,7 @@ fn run_to(opening: &str, control: &str, lower: usize, upper: usize, increments: 
         stored: column("stored"),
         dissipated: column("dissipated"),
         turns: summary["solution"]["turns"].as_array().unwrap().len(),
-        leaps: summary["solution"]["leaps"].as_array().unwrap().len(),
+        snaps: summary["solution"]["snaps"].as_array().unwrap().len(),
     }
 }
 
@@ -121,7 +121,7 @@ fn coarse_arms_run_through_local_snap_backs_to_the_end() {
     for (lower, upper) in [(14, 14), (18, 18), (18, 14), (28, 28)] {
         let run = run_to("6e-3", "auto", lower, upper, 60);
         let last = run.opening.len() - 1;
-        println!("{lower}:{upper}: {} increments, {} turns, {} leaps", last + 1, run.turns, run.leaps);
+        println!("{lower}:{upper}: {} increments, {} turns, {} snaps", last + 1, run.turns, run.snaps);
         assert_eq!(run.opening[last], 6e-3);
         assert!(run.turns > 0);
         assert!(run.opening.windows(2).any(|pair| pair[1] < pair[0]), "nothing snaps back");
@@ -135,12 +135,12 @@ fn far_too_large_increments_end_where_small_ones_do() {
         let last = run.opening.len() - 1;
         [run.force[last], run.dissipated[last]]
     };
-    // by load with leaps, and along the path; the laws are integrated to 1e-4
+    // by load with snaps, and along the path, to the tolerance of 1e-3 of the way
     let [force, dissipated] = end("load", 400);
-    for (control, increments) in [("load", 5), ("load", 20), ("auto", 60)] {
+    for (control, increments) in [("load", 1), ("load", 5), ("load", 20), ("auto", 60)] {
         let [f, d] = end(control, increments);
         println!("{control}, {increments}: {:e} and {:e} off", f / force - 1.0, d / dissipated - 1.0);
-        close(f, force, 1e-4, "load at the end");
-        close(d, dissipated, 1e-4, "dissipated energy");
+        close(f, force, 1e-3, "load at the end");
+        close(d, dissipated, 1e-3, "dissipated energy");
     }
 }

