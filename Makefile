@@ -5,7 +5,8 @@
 # Another scene file in the same folder, such as geo/cantilever/pointwise.json, is a variant: its results go to
 # results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json or *path.json are no scenes.
 # Options for the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args, those for its history, if
-# that is to be drawn, in geo/<scene>/history.args.
+# that is to be drawn, in geo/<scene>/history.args, and those for the check of its results, the error that its energies
+# may have, in geo/<scene>/check.args or, for a variant, geo/<scene>/<file>.check.args.
 
 .SUFFIXES:
 .DEFAULT_GOAL := all
@@ -26,14 +27,18 @@ DRAWING := $(addprefix pipeline/,draw.py traction.py history.py exact.py page.py
 # beside $1: scene, $2: results to show beside those of the scene
 beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
 
+# limits $1, $2: options for the check of a scene, folder and name of the file
+limits = $(addprefix @,$(firstword $(wildcard geo/$1/$2.check.args geo/$1/check.args)))
+CHECKING := $(addprefix pipeline/,check_outputs.py energies.py statics.py joints.py)
+
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
 results/$1/.solved: $(filter-out %.args,$(wildcard geo/$2/*)) $(MIDPLANE) | tools
 	$(MIDPLANE) run $3 -o results/$1
 	@touch $$@
 
-results/$1/.checked: results/$1/.solved pipeline/check_outputs.py pipeline/statics.py $(VENV)
-	$(PYTHON) pipeline/check_outputs.py $3 results/$1
+results/$1/.checked: results/$1/.solved $(CHECKING) $(wildcard geo/$2/*check.args) $(VENV)
+	$(PYTHON) pipeline/check_outputs.py $3 results/$1 $(call limits,$2,$(basename $(notdir $3)))
 	@touch $$@
 
 results/$1/.drawn: results/$1/.checked $(patsubst %,results/%/.checked,$4)
@@ -61,8 +66,11 @@ results/shear/.example2: results/shear/.checked results/shear_as_printed/.checke
 results/shear/.example2: pipeline/example2.py pipeline/history.py pipeline/page.py
 	$(PYTHON) pipeline/example2.py $(MIDPLANE) geo/shear/path.json results/shear \
 	    geo/shear/scene.json geo/shear/as_printed.json
-	for run in results/shear/scene_* results/shear/as_printed_*; do \
-	    $(PYTHON) pipeline/check_outputs.py geo/shear/scene.json $$run || exit; \
+	for run in results/shear/scene_*/; do \
+	    $(PYTHON) pipeline/check_outputs.py $$run/scene.json $$run $(call limits,shear,scene) || exit; \
+	done
+	for run in results/shear/as_printed_*/; do \
+	    $(PYTHON) pipeline/check_outputs.py $$run/scene.json $$run $(call limits,shear,as_printed) || exit; \
 	done
 	@touch $@
 
@@ -100,6 +108,9 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
+
+confinement: | tools  ## the long tests: boxes at every confinement on fine meshes, and 200 random ones, some minutes
+	cargo test --release --locked --test confinement -- --ignored --nocapture
 
 BENCHED := results/bench/scenes.csv $(wildcard results/bench/peers*.csv)
 
@@ -206,4 +217,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test extremes extremes-quick trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test confinement extremes extremes-quick trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

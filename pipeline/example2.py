@@ -25,6 +25,9 @@ def run(program, scene, pressure, folder):
     """The scene at a pressure: its history, and the largest difference of two law points at any time [stress]."""
     setting = f"/steps/0/load/upper.top/pressure={pressure}"
     subprocess.run([program, "run", scene, "-o", folder, "--set", setting, "--quiet"], check=True)
+    pressed = json.loads(scene.read_text())  # for the check
+    pressed["steps"][0]["load"]["upper.top"]["pressure"] = pressure
+    (folder / "scene.json").write_text(json.dumps(pressed, indent=2))
     fields = (pyvista.read(path)["traction"] for path in folder.glob("fields/joint_*.vtu"))
     return read(folder), max(np.ptp(field, axis=0).max() for field in fields)
 

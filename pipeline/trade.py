@@ -101,7 +101,7 @@ class Campaign:
             "settings": [s for s in point["settings"] if "study:" not in s],
         } | {
             name: point["counts"].get(name)
-            for name in ("dofs", "iterations", "increments", "halved", "factor_entries", "stiffness_number")
+            for name in ("dofs", "iterations", "increments", "parts", "rejected", "factor_entries", "stiffness_number")
         }
 
     def labelled(self, labels):
