@@ -74,7 +74,8 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
         );
         assert!(lowest < 0.01 * CHI, "L = {length}: followed to {lowest} only");
         let exact_turn = exact(GI / CHI / c);
-        close(turn.0, exact_turn, 1e-4, exact_turn, "lowest displacement");
+        // rows lie on either side of it
+        close(turn.0, exact_turn, 2e-4, exact_turn, "lowest displacement");
         match march.end {
             Ok(totals) => {
                 assert!(totals.energy_balance < 5e-3);

@@ -83,7 +83,8 @@ fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
         let s = last.snapshot.tractions[0][0][0];
         assert!(s < 0.01 * CHI);
         close(last.dissipated / WIDTH, GI * (1.0 - s / CHI), 1e-6, GI, &what);
-        close(last.work / WIDTH, GI * (1.0 - s / CHI) + 0.5 * s * s * peak / CHI, 1e-6, GI, &what);
+        // by the trapezoidal rule over the increments
+        close(last.work / WIDTH, GI * (1.0 - s / CHI) + 0.5 * s * s * peak / CHI, 5e-3, GI, &what);
     }
 }
 
