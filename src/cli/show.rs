@@ -134,7 +134,7 @@ impl Show {
     }
 }
 
-/// What happened in an increment besides: it took several parts, the path turned, it snapped to another branch.
+/// Marks of an increment in the table: several parts, turning points of the path, snaps.
 fn marks(now: &Totals, before: Option<&Totals>) -> String {
     let count = |of: &dyn Fn(&Totals) -> usize| of(now) - before.map_or(0, of);
     let mut marks = Vec::new();

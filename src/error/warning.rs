@@ -31,7 +31,7 @@ pub enum Code {
     Locking,
     /// A body that next to nothing holds.
     HardlyHeld,
-    /// Where no equilibrium continues the path: a snap to another branch.
+    /// A snap to another branch of equilibria.
     Snapped,
     /// A load that is zero everywhere.
     NoLoad,

@@ -1,4 +1,4 @@
-//! What hangs together: the pieces of every subdomain, and boundaries that lie on each other with nothing to join them.
+//! Connectivity: the pieces of every subdomain, and coincident boundaries with nothing to join them.
 
 use std::collections::BTreeMap;
 

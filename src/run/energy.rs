@@ -28,7 +28,7 @@ impl State {
         joints.map(of).sum()
     }
 
-    /// What they carry after what was found, measured alike.
+    /// Mean square of the tractions found, times length [stress² × length].
     pub(super) fn carried_after(&self, problem: &Problem, found: &Found) -> f64 {
         let of = |answer: &JointAnswer| {
             let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);

@@ -20,7 +20,7 @@ pub(super) enum Failure {
     Unusable(f64),
 }
 
-/// Where an equilibrium is sought.
+/// Starting points of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Ahead {
     /// The last change of the unknowns is repeated this many times.

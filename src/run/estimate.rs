@@ -31,7 +31,7 @@ pub(super) struct Estimate {
     pub(super) traction: f64,
     /// Change of the energy dissipated in it [force × length].
     pub(super) dissipation: f64,
-    /// What the trapezoidal rule has too much of the work of the interfaces [force × length].
+    /// Error of the trapezoidal rule for the work of the interfaces [force × length].
     pub(super) work: f64,
     /// The work of the interfaces in the part, added up by magnitude [force × length].
     pub(super) passed: f64,

@@ -32,8 +32,8 @@ const SHRINK: f64 = 0.05;
 const GROW: f64 = 4.0;
 /// A part found in at most so many iterations may be followed by a larger one.
 const EASY: usize = 8;
-/// Where points crack after others, tractions that bend more than this share of the tolerance are a reason to ask whether small
-/// parts lead there; if not, the second is the error over the tolerance.
+/// Share of the tolerance above which the bend of a part with late cracks asks for the check of late points, and the error over
+/// the tolerance of a part that fails it.
 const SUSPECT: f64 = 1.0;
 const UNREACHED: f64 = 10.0;
 /// Weight of the trapezoidal rule's error of a part: these add up over an increment.
@@ -41,7 +41,7 @@ const SUMS: f64 = 3.0;
 /// Their sum over a step stays below so many times the tolerance: a part may have this share of what is left of that.
 const BUDGET: f64 = 4.5;
 const SHARE: f64 = 0.25;
-/// What the interfaces carried before counts, where they carry less now, by this part.
+/// Smallest scale of the tractions [stress × √length].
 const FLOOR: f64 = 1e-12;
 
 /// One increment of a step.
