@@ -16,8 +16,6 @@ use super::{Coulomb, Cracking, Law, Response, State, Stepping, Unresolved};
 
 /// Part of G_I that counts as all of it.
 const SPENT: f64 = 1.0 - 1e-9;
-/// Part of it beyond which friction is steep.
-const NEARLY: f64 = 0.99;
 /// Statuses of what slides, and of what is free of stress.
 const SLIPS: u8 = 2;
 const FREE: u8 = 4;
@@ -33,7 +31,14 @@ impl Law {
         all: bool,
     ) -> Result<Response, Unresolved> {
         match self {
-            Law::Cracking(law) if law.has_steep_friction(old, all) => {
+            Law::Cracking(law) if all && (old.traction.x < 0.0 || !law.is_spent(old, SPENT)) => {
+                let answer = law.respond_on_facet(jump, old);
+                Ok(match answer.traction.x >= 0.0 && law.is_spent(old, SPENT) {
+                    true => parted(law.tangential_stiffness, answer),
+                    false => answer,
+                })
+            }
+            Law::Cracking(law) if law.is_spent(old, SPENT) && (all || law.dilatancy_stress == 0.0) => {
                 let own = law.respond(Vector2::new(old.jump.x, jump.y), old, stepping)?;
                 let parted = old.jump_plastic.x.max(jump.x);
                 Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted))
@@ -48,12 +53,20 @@ impl Law {
     }
 }
 
+/// An answer at no normal traction: what is left of the shear pushes in this step and is lost with it.
+fn parted(kt: f64, mut answer: Response) -> Response {
+    let tau = answer.traction.y;
+    answer.released = 0.5 * tau * tau / kt;
+    answer.state.traction.y = 0.0;
+    answer.state.jump_plastic.y += tau / kt;
+    answer.state.status = FREE;
+    answer
+}
+
 impl Cracking {
-    /// No tensile strength is left, and no dilatancy answers; with `all` hardly any is left, whatever the dilatancy.
-    fn has_steep_friction(&self, old: &State, all: bool) -> bool {
-        let spent = if all { NEARLY } else { SPENT };
-        (all || self.dilatancy_stress == 0.0)
-            && (self.tensile_strength == 0.0 || old.fracture_work >= spent * self.fracture_energy_i)
+    /// This part of the tensile strength's energy is spent, or there is none.
+    fn is_spent(&self, old: &State, part: f64) -> bool {
+        self.tensile_strength == 0.0 || old.fracture_work >= part * self.fracture_energy_i
     }
 }
 

@@ -36,6 +36,8 @@ pub(super) struct Viscous {
     pub(super) viscosity: f64,
     /// The last change of the unknowns is repeated this many times, as a second start.
     pub(super) ahead: f64,
+    /// To the tolerance of an increment.
+    pub(super) strict: bool,
 }
 
 /// A step on the path of equilibria.

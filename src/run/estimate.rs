@@ -248,12 +248,15 @@ impl<F: Form> NewtonEngine<'_, F> {
                 let jump = answer.state.jump;
                 let moved = jump - old.jump;
                 let middle = 0.5 * (jump + old.jump);
+                // a law that lags may drop at once
+                let Ok(start) = laws.own(k, p, old.jump.as_slice()) else { continue };
                 let Ok(middle) = laws.own(k, p, middle.as_slice()) else { continue };
                 for i in 0..2 {
                     let before = self.viscous[0].get(a).map_or(0.0, |viscous| viscous[2 * p + i]);
                     let own = iterate.tractions[a][2 * p + i] - answer.viscous[i];
-                    // ½ (t₀ + t₁) − (t₀ + 4 t_m + t₁) / 6
-                    let bend = (old.traction[i] + own - 2.0 * middle.traction[i]) / 3.0;
+                    // ½ (t₀ + t₁) − (t₀' + 4 t_m + t₁) / 6
+                    let bend = 0.5 * (old.traction[i] + own)
+                        - (start.traction[i] + 4.0 * middle.traction[i] + own) / 6.0;
                     released += points[p].weight * (0.5 * (before + answer.viscous[i]) + bend) * moved[i];
                 }
             }

@@ -98,7 +98,15 @@ fn found(
         JointAnswer { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
     };
     let joints = jumps.into_iter().enumerate().map(answer).collect();
-    Found { solution, ledger, joints, released: 0.0, iterations: 0, residuals: vec![backward_error] }
+    Found {
+        solution,
+        ledger,
+        joints,
+        released: 0.0,
+        iterations: 0,
+        wasted: 0,
+        residuals: vec![backward_error],
+    }
 }
 
 /// A solution with a larger backward error is not kept.

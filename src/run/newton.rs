@@ -17,6 +17,8 @@ use crate::solver::{
 const NEAR: f64 = 1e-3;
 /// Largest relative residual of a viscous step: what is stored is found without viscosity.
 const CREEP: f64 = 1e-7;
+/// A viscosity above this part of the stiffness makes tiny steps.
+const STIFF: f64 = 0.1;
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
 
@@ -36,6 +38,8 @@ pub(super) struct NewtonEngine<'a, F> {
     forces: [Vec<Vec<f64>>; 2],
     /// Viscous tractions at the law points of every active joint, alike; none where nothing is viscous.
     pub(super) viscous: [Vec<Vec<f64>>; 2],
+    /// Friction lags wherever it is steep in viscous steps, since steps without failed.
+    lags: bool,
     /// Unknowns to which a search that failed returns.
     kept: [Vec<f64>; 2],
     /// The step's loads are prepared; so are its measures; these are good enough; no increment has been tried yet.
@@ -61,6 +65,7 @@ impl<'a, F> NewtonEngine<'a, F> {
             found,
             forces: [Vec::new(), Vec::new()],
             viscous: [Vec::new(), Vec::new()],
+            lags: false,
             kept: [Vec::new(), Vec::new()],
             prepared,
             measured,
@@ -140,6 +145,14 @@ impl<F: Form> NewtonEngine<'_, F> {
         self.unknowns.iter().zip(&self.before).map(along).collect()
     }
 
+    /// Friction may lag wherever it is steep: some law dilates, or steps are so small that lagging costs nothing.
+    fn may_lag(&self, viscosity: f64) -> bool {
+        let laws =
+            || self.problem.laws.iter().map(|(law, _)| law).filter(|law| law.steepest_softening() > 0.0);
+        let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
+        laws().any(|law| law.dilates()) || laws().count() > 0 && viscosity > STIFF * stiffness
+    }
+
     /// Equilibrium under a load, sought from the better of two starts.
     fn solve_from(
         &mut self,
@@ -212,7 +225,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
-        Found { solution, ledger, joints: joints.collect(), released, iterations, residuals }
+        Found { solution, ledger, joints: joints.collect(), released, iterations, wasted: 0, residuals }
     }
 }
 
@@ -255,23 +268,30 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         &mut self,
         state: &State,
         load: &Load,
-        Viscous { viscosity, ahead }: Viscous,
+        Viscous { viscosity, ahead, strict }: Viscous,
         complete: bool,
     ) -> Result<Found, Failure> {
         let starts = [self.unknowns.clone(), self.onwards(ahead)];
         let (problem, old) = (self.problem, &state.snapshot.states);
-        let laws = Laws { problem, old, viscosity: Some(viscosity), lags: false, held: None };
+        let laws = Laws {
+            problem,
+            old,
+            viscosity: Some(viscosity),
+            lags: self.lags && self.may_lag(viscosity),
+            held: None,
+        };
         let settings = self.settings;
-        let tolerance = settings.tolerance.max(CREEP);
+        let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
         self.settings = Settings { tolerance, initial_tangent: false, ..settings };
         let mut found = self.solve_from(starts.clone(), &laws, load, complete);
-        if let Err(Failure::Unconverged(first)) = &found
-            && self.problem.laws.iter().any(|(law, _)| law.dilates())
+        if let Err(Failure::Unconverged(first)) = &mut found
+            && self.may_lag(viscosity)
         {
-            let tried = first.iterations;
-            found = self.solve_from(starts, &Laws { lags: true, ..laws }, load, complete);
+            let tried = std::mem::take(&mut first.iterations);
+            self.lags = !self.lags;
+            found = self.solve_from(starts, &Laws { lags: self.lags, ..laws }, load, complete);
             match &mut found {
-                Ok(found) => found.iterations += tried,
+                Ok(found) => found.wasted = tried,
                 Err(Failure::Unconverged(why)) => why.iterations += tried,
                 Err(Failure::Unusable(_)) => {}
             }
@@ -341,6 +361,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn keep(&mut self) {
         self.kept = [self.before.clone(), self.unknowns.clone()];
+        self.lags = false;
     }
 
     fn go_back(&mut self) {

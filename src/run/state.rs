@@ -85,6 +85,8 @@ pub(super) struct Found {
     /// Viscous work [force × length].
     pub(super) released: f64,
     pub(super) iterations: usize,
+    /// Iterations of a search before that found nothing.
+    pub(super) wasted: usize,
     pub(super) residuals: Vec<f64>,
 }
 
@@ -165,6 +167,12 @@ impl State {
         }
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
+    }
+
+    /// Counts as an equilibrium of the laws alone, which leave this residual.
+    pub(super) fn stands(&mut self, residual: f64) {
+        self.residual = residual;
+        self.residuals = vec![residual];
     }
 
     /// Recovers what an increment without stored fields has left out.

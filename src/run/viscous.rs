@@ -40,7 +40,7 @@ const LEAST_CARRIED: f64 = 0.2;
 const NEAR: f64 = 1e-3;
 const VERY_NEAR: f64 = 1e-6;
 /// Most steps of a rest.
-const STEPS: usize = 2000;
+const STEPS: usize = 400;
 /// A force and tractions that change by less than this part are the same; where at least this part of the motion closes,
 /// something may come to hold it.
 const SAME: f64 = 1e-3;
@@ -137,7 +137,14 @@ impl Course<'_, '_> {
             let to = if at.level + step > leg.goal - 1e-13 { leg.goal } else { at.level + step };
             let c = eta / step;
             let ahead = if last > 0.0 { step / last } else { 0.0 };
-            match self.creep(leg, at, to, Viscous { viscosity: c, ahead }, c < STIFF * stiffness, stretch)? {
+            match self.creep(
+                leg,
+                at,
+                to,
+                Viscous { viscosity: c, ahead, strict: false },
+                c < STIFF * stiffness,
+                stretch,
+            )? {
                 Ok(Motion { iterations, .. }) => {
                     last = step;
                     at.level = to;
@@ -192,7 +199,7 @@ impl Course<'_, '_> {
             Err(Failure::Unusable(_)) => return Ok(Err(too_far("numbers overflowed"))),
         };
         let iterations = found.iterations;
-        stretch.iterations += iterations;
+        stretch.iterations += iterations + found.wasted;
         let change = self.state.change(self.problem, &found).sqrt();
         if limited && change > CHANGE * scale {
             self.totals.rejected += 1;
@@ -256,13 +263,14 @@ impl Course<'_, '_> {
             worst: Vec::new(),
             iterations: 0,
         };
-        let (mut ahead, mut before) = (0.0, f64::INFINITY);
+        let (mut ahead, mut before, mut left) = (0.0, f64::INFINITY, f64::INFINITY);
         let (mut free, mut spent) = (0, 0);
         for k in 0..STEPS {
             if c > 100.0 * stiffness || free >= FREE && spent >= FREE_ITERATIONS {
                 break;
             }
-            match self.creep(leg, at, at.level, Viscous { viscosity: c, ahead }, false, stretch)? {
+            let strict = left < VERY_NEAR;
+            match self.creep(leg, at, at.level, Viscous { viscosity: c, ahead, strict }, false, stretch)? {
                 Ok(Motion { iterations, moved, closing, pull, change }) => {
                     // the same force on growing steps of what only slides or opens: nothing holds it
                     let same =
@@ -270,7 +278,13 @@ impl Course<'_, '_> {
                     (free, spent) = if same { (free + 1, spent + iterations) } else { (0, 0) };
                     (before, ahead) = (pull, 1.0);
                     let load = leg.start.at(at.level)?;
-                    let left = self.engine.imbalance(&self.state, &load);
+                    left = self.engine.imbalance(&self.state, &load);
+                    if left.max(change) <= self.problem.solution.tolerance {
+                        self.state.stands(left);
+                        at.last = f64::INFINITY;
+                        at.fresh = true;
+                        return Ok(Ok(()));
+                    }
                     let due = k % 3 == 2 || left < VERY_NEAR || c < 0.1 * softening;
                     if left <= NEAR && due && self.by_laws_alone(leg, at, stretch)? {
                         return Ok(Ok(()));

@@ -27,7 +27,9 @@ const SHOWN: f64 = 4.0;
 const SHOWN_MOST: f64 = 1e-10;
 /// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
 /// and nothing pushes then stays where it is.
-const FREE: f64 = 1e-12;
+const FREE: f64 = 1e-10;
+/// But for this part of the largest jump, by which its sides are moved apart at first: rounding must not make them touch.
+const APART: f64 = 1e-7;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
 
@@ -144,7 +146,7 @@ impl Newton {
             if iterations == settings.iterations || since >= settings.patience {
                 break;
             }
-            let mut correction = self.correction(form, laws, &now, settings, iterations)?;
+            let mut correction = self.correction(form, laws, &x, &now, target, settings, iterations)?;
             correction.iter_mut().for_each(|value| *value = -*value);
             let error = now.error.max(settings.tolerance); // below that rounding decides
             let Some((next, there)) = search(form, laws, &x, &correction, target, error) else {
@@ -241,17 +243,23 @@ impl Newton {
         own.max((SHOWN * shown).min(SHOWN_MOST)).min(UNUSABLE)
     }
 
-    /// J⁻¹ R.
+    /// J⁻¹ R; at first with what is free of stress moved apart.
     fn correction<L: Respond>(
         &mut self,
         form: &mut impl Form,
         laws: &L,
+        x: &[f64],
         now: &Evaluation<L::Memory>,
+        target: &[f64],
         settings: Settings,
         iterations: usize,
     ) -> Result<Vec<f64>, Unconverged> {
         self.fill(form, laws, now, settings);
-        let mut correction = now.residual.clone();
+        let apart = if iterations == 0 { moved_apart(form, laws, now) } else { None };
+        let mut correction = match apart {
+            Some(forces) => form.residual(x, &forces, target),
+            None => now.residual.clone(),
+        };
         if form.factor(&self.tangents) {
             form.solve(&mut correction);
         }
@@ -292,6 +300,29 @@ impl Newton {
             }
         }
     }
+}
+
+/// The forces of the joints, with a push on points that do not resist; none if all do.
+fn moved_apart<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> Option<Vec<Vec<f64>>> {
+    let (mut forces, mut any) = (now.forces.clone(), false);
+    for (a, &k) in form.active().iter().enumerate() {
+        let joint = &form.joints()[k];
+        let c = joint.coupling.components;
+        let mut intact = vec![0.0; c * c];
+        laws.initial_stiffness(k, &mut intact);
+        let largest = now.jumps[a].iter().fold(0.0_f64, |most, jump| most.max(jump.abs()));
+        let mut push = vec![0.0; now.jumps[a].len()];
+        for (push, stiffness) in push.chunks_exact_mut(c).zip(now.stiffness[a].chunks_exact(c * c)) {
+            if stiffness[0].abs() < FREE * intact[0] {
+                push[0] = -FREE * intact[0] * APART * largest;
+                any = true;
+            }
+        }
+        if any {
+            forces[a].iter_mut().zip(joint.gather(&push)).for_each(|(force, push)| *force += push);
+        }
+    }
+    any.then_some(forces)
 }
 
 /// The best of the steps tried, from a full one to a thousandth: the first that reduces the residual enough.

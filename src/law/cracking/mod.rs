@@ -14,6 +14,7 @@
 
 mod check;
 mod control;
+mod facet;
 mod flow;
 mod march;
 mod nested;
@@ -101,6 +102,11 @@ impl Cracking {
             Stepping::Tolerance(tolerance) => surface.march(jump, old, Lengths::Controlled(tolerance, None)),
             Stepping::BackwardEuler(steps) => Ok(surface.march_euler(jump, old, steps)),
         }
+    }
+
+    /// The answer of a viscous step from a state under compression, with friction lagged and dilatancy kept.
+    pub(super) fn respond_on_facet(&self, jump: Vector2<f64>, old: &State) -> Response {
+        Surface::new(self).on_facet(jump, old)
     }
 
     /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.

@@ -49,6 +49,11 @@ impl Surface {
         if !outside || change == Vector2::zeros() {
             point.traction = trial;
             point.mode = Mode::Elastic;
+            if change == Vector2::zeros() && old.status == Mode::Open as u8 {
+                // what is free of stress is taken to stay so
+                point.mode = Mode::Open;
+                return Ok(self.response(jump, old, &point, &Slopes::none()));
+            }
             let slopes = Slopes { traction: stiff_rows(self, &Matrix2::identity()), ..Slopes::none() };
             return Ok(self.response(jump, old, &point, &slopes));
         }
