@@ -145,12 +145,19 @@ impl<F: Form> NewtonEngine<'_, F> {
         self.unknowns.iter().zip(&self.before).map(along).collect()
     }
 
-    /// Friction may lag wherever it is steep: some law dilates, or steps are so small that lagging costs nothing.
+    /// Friction may lag wherever it is steep: some law dilates and the viscosity is above the softening, or steps are so small
+    /// that lagging costs nothing.
     fn may_lag(&self, viscosity: f64) -> bool {
         let laws =
             || self.problem.laws.iter().map(|(law, _)| law).filter(|law| law.steepest_softening() > 0.0);
         let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
-        laws().any(|law| law.dilates()) || laws().count() > 0 && viscosity > STIFF * stiffness
+        let softening = laws().map(|law| law.steepest_softening()).fold(0.0, f64::max);
+        let least = if laws().any(|law| law.dilates()) {
+            softening.min(STIFF * stiffness)
+        } else {
+            STIFF * stiffness
+        };
+        softening > 0.0 && viscosity >= least
     }
 
     /// Equilibrium under a load, sought from the better of two starts.

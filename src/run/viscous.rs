@@ -264,12 +264,12 @@ impl Course<'_, '_> {
             iterations: 0,
         };
         let (mut ahead, mut before, mut left) = (0.0, f64::INFINITY, f64::INFINITY);
-        let (mut free, mut spent) = (0, 0);
+        let (mut free, mut spent, mut refused) = (0, 0, false);
         for k in 0..STEPS {
             if c > 100.0 * stiffness || free >= FREE && spent >= FREE_ITERATIONS {
                 break;
             }
-            let strict = left < VERY_NEAR;
+            let strict = left < VERY_NEAR && !refused;
             match self.creep(leg, at, at.level, Viscous { viscosity: c, ahead, strict }, false, stretch)? {
                 Ok(Motion { iterations, moved, closing, pull, change }) => {
                     // the same force on growing steps of what only slides or opens: nothing holds it
@@ -295,6 +295,7 @@ impl Course<'_, '_> {
                     }
                     c = c.max(1e-12 * stiffness);
                 }
+                Err(_) if strict => refused = true,
                 Err(failed) => {
                     why = failed;
                     (c, hold, ahead) = (FACTOR * c, 3, 0.0);

@@ -49,12 +49,12 @@ impl Surface {
         if !outside || change == Vector2::zeros() {
             point.traction = trial;
             point.mode = Mode::Elastic;
-            if change == Vector2::zeros() && old.status == Mode::Open as u8 {
-                // what is free of stress is taken to stay so
-                point.mode = Mode::Open;
-                return Ok(self.response(jump, old, &point, &Slopes::none()));
-            }
-            let slopes = Slopes { traction: stiff_rows(self, &Matrix2::identity()), ..Slopes::none() };
+            // what is free of stress and has no strength to lose is taken to stay so
+            let free = change == Vector2::zeros() && old.traction == Vector2::zeros();
+            let slopes = match free && old.fracture_work > 0.0 && self.at(old.fracture_work).chi == 0.0 {
+                true => Slopes::none(),
+                false => Slopes { traction: stiff_rows(self, &Matrix2::identity()), ..Slopes::none() },
+            };
             return Ok(self.response(jump, old, &point, &slopes));
         }
 
