@@ -17,8 +17,11 @@ struct Run {
     /// Shear at load factors 0.2, 0.4, … 1.
     curve: Vec<f64>,
     iterations: usize,
+    /// The most of an increment, and of the last twenty.
     most: usize,
+    late: usize,
     released: f64,
+    balance: f64,
 }
 
 fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: usize, more: &str) -> Run {
@@ -47,7 +50,13 @@ fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: u
         totals.energy_balance,
         clock.elapsed().as_secs_f64()
     );
-    Run { curve, iterations, most: *march.iterations.iter().max().unwrap(), released: totals.released }
+    Run {
+        curve,
+        iterations,
+        most: *march.iterations.iter().max().unwrap(),
+        released: totals.released,
+        balance: totals.energy_balance,
+    }
 }
 
 /// Largest difference of two curves, of the peak.
@@ -77,6 +86,8 @@ fn matrix(mesh: (usize, usize), ends: [f64; 5]) {
             "{what}: 5 and 50 increments differ by {}",
             differ(&fine, &coarse)
         );
+        // once apart, nothing happens any more
+        assert!(pressure > 0.0 || fine.late <= 20, "{what}: {} iterations in a late increment", fine.late);
         for run in [&fine, &coarse] {
             let shear = run.curve[4];
             match pressure {
@@ -123,6 +134,17 @@ fn masonry_at_any_confinement() {
             assert!(differ(&fine, &coarse) <= 0.003, "{what}: {}", differ(&fine, &coarse));
         }
         run(&MASONRY.text(), mesh, 0.0, 1e-3, 5, "");
+        // without control of the error, increments cost what the independent program takes
+        for pressure in [0.1, 0.5, 1.0, 2.0] {
+            for (increments, most) in [(5, 30), (50, 150)] {
+                let plain = run(&MASONRY.text(), mesh, pressure, 1e-3, increments, r#""path_tolerance": 1"#);
+                assert!(
+                    plain.iterations <= most,
+                    "{mesh:?}, P = {pressure}: {} iterations",
+                    plain.iterations
+                );
+            }
+        }
     }
     // cohesion that is spent within the slide leaves friction alone
     let spent = Cracking { energies: [4e-6, 2e-5], ..MASONRY };
@@ -197,7 +219,8 @@ fn random_box(number: u64) {
     let pressure = 5.0 * random.between(0.0, 1.0);
     let increments = if random.between(0.0, 1.0) < 0.5 { 5 } else { 50 };
     println!("{number}: {law:?}");
-    run(&law.text(), mesh, pressure, 1e-3, increments, "");
+    let balance = run(&law.text(), mesh, pressure, 1e-3, increments, "").balance;
+    assert!(balance < 0.05, "{number}: energies are out of balance by {balance}");
 }
 
 #[test]

@@ -12,6 +12,9 @@ use super::flow::Mode;
 use super::march::{Point, Slopes, stiff_rows};
 use super::surface::Surface;
 
+/// A state that does not move is outside above so many times the margin.
+const LEFT_OUTSIDE: f64 = 1e3;
+
 /// Where the sub-steps come from.
 pub(super) enum Lengths<'a> {
     /// Error control with this tolerance; the accepted lengths are appended to the record, if there is one.
@@ -46,6 +49,11 @@ impl Surface {
         let trial = old.traction + self.stiff(change);
         let mut point = Point::start(old);
         let outside = self.at(old.fracture_work).hyperbola(trial.x, trial.y) > self.margin(trial);
+        if change == Vector2::zeros()
+            && self.at(old.fracture_work).hyperbola(trial.x, trial.y) > LEFT_OUTSIDE * self.margin(trial)
+        {
+            return Ok(self.march_euler(jump, old, 1)); // a viscous step may leave a state outside
+        }
         if !outside || change == Vector2::zeros() {
             point.traction = trial;
             point.mode = Mode::Elastic;
