@@ -50,8 +50,10 @@ fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: u
         totals.energy_balance,
         clock.elapsed().as_secs_f64()
     );
+    let late = march.iterations.iter().rev().take(20).copied().max().unwrap();
     Run {
         curve,
+        late,
         iterations,
         most: *march.iterations.iter().max().unwrap(),
         released: totals.released,
