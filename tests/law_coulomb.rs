@@ -277,5 +277,9 @@ fn an_initial_traction_must_be_one_the_interface_can_carry() {
     assert_eq!(law.respond(Vector2::zeros(), &state, STEPPING).unwrap().traction, Vector2::new(-2.0, 1.0));
     assert_eq!(law.initial_state(Vector2::new(-2.0, 1.3), 0.0).unwrap_err().key, "initial_traction");
     assert_eq!(law.initial_state(Vector2::new(1.0, 0.0), 0.0).unwrap_err().key, "initial_traction");
-    assert_eq!(law.initial_state(Vector2::zeros(), -1.0).unwrap_err().key, "initial_gap");
+    // faces that overlap press on each other
+    let pressed = law.initial_state(Vector2::zeros(), -1e-3).unwrap();
+    close(pressed.traction.x, -1e-3 * BLOCK.normal_stiffness, 1e-12, "−K_N times the overlap");
+    assert_eq!(law.respond(Vector2::zeros(), &pressed, STEPPING).unwrap().traction, pressed.traction);
+    assert_eq!(law.initial_state(Vector2::zeros(), f64::NAN).unwrap_err().key, "initial_gap");
 }

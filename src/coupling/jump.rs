@@ -50,9 +50,8 @@ pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &Spot, mut add: imp
             }
         }
     }
-    let off = [0, 1].map(|i| c.angles[i].to_curve(sides[i].chain, sides[i].edge, sides[i].xi));
-    let apart = minus(c.b.point(segment.edge_b, spot.xi_b), c.a.point(segment.edge_a, spot.xi_a));
-    let gap = plus(apart, minus(off[1], off[0]));
+    let off = off_curves(c, segment, spot);
+    let gap = apart(c, segment, spot, off);
     if [off[0], off[1], gap].iter().all(|v| norm(*v) <= COINCIDENT * c.length) {
         return;
     }
@@ -71,6 +70,23 @@ pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &Spot, mut add: imp
             }
         }
     }
+}
+
+/// Way from either edge to the curve that it is a chord of.
+fn off_curves(c: &Midplane, segment: &Segment, spot: &Spot) -> [[f64; 2]; 2] {
+    let [a, b] = &c.angles;
+    [a.to_curve(&c.a, segment.edge_a, spot.xi_a), b.to_curve(&c.b, segment.edge_b, spot.xi_b)]
+}
+
+/// Way from the curve of A to that of B.
+fn apart(c: &Midplane, segment: &Segment, spot: &Spot, off: [[f64; 2]; 2]) -> [f64; 2] {
+    let edges = minus(c.b.point(segment.edge_b, spot.xi_b), c.a.point(segment.edge_a, spot.xi_a));
+    plus(edges, minus(off[1], off[0]))
+}
+
+/// The drawn gap at a place of a segment: the way from one curve to the other, without what chords differ by.
+pub(super) fn drawn(c: &Midplane, segment: &Segment, spot: &Spot) -> [f64; 2] {
+    apart(c, segment, spot, off_curves(c, segment, spot))
 }
 
 /// A place on one edge of a chain.

@@ -111,7 +111,8 @@ pub struct LawPoint {
     pub position: [f64; 2],
     /// R: rows n and t in x, y.
     pub rotation: [[f64; 2]; 2],
-    /// Distance from A to B along n as the meshes have it; negative where they overlap [length].
+    /// Drawn distance from A to B along n, without what chords of one curve differ by and projected as the jump is;
+    /// negative where they overlap [length].
     pub gap: f64,
     /// N: (coefficient, value); unused entries have the value zero.
     pub interpolation: [(usize, f64); 3],

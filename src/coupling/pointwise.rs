@@ -3,6 +3,7 @@
 //! K = ∫_C [B_A B_B]ᵀ D [B_A B_B] dL with B_A at ξ_A(ξ_C) and B_B at ξ_B(ξ_C). The jumps at the points are the
 //! coefficients: M = I, N = I.
 
+use super::vector::dot;
 use super::{Coupling, Csr, LawPoint, Midplane, Points, jump};
 use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule};
 
@@ -45,7 +46,7 @@ pub(super) fn build(midplane: Midplane, points: Points) -> Coupling {
                 s: segment.start + 0.5 * (segment.end - segment.start) * (1.0 + eta),
                 position: spot.position,
                 rotation: spot.rotation,
-                gap: spot.gap,
+                gap: dot(jump::drawn(&midplane, segment, &spot), spot.rotation[0]),
                 interpolation: [(law_points.len(), 1.0), (0, 0.0), (0, 0.0)],
             });
         }

@@ -9,6 +9,7 @@
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
 
 use super::banded::Banded;
+use super::vector::dot;
 use super::{Coupling, Csr, LawPoint, Midplane, Points, grid, jump, pointwise};
 use crate::shape::{GAUSS_2, GAUSS_3, lagrange2, lagrange3};
 
@@ -23,7 +24,7 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
 
     // B by rows (grid node, component), M in its band; a quadratic side needs three points also on a linear grid
     let any = midplane.a.mids.iter().chain(&midplane.b.mids).any(Option::is_some);
-    let (mut b, mut own) = (Vec::new(), Vec::new());
+    let (mut b, mut own, mut apart) = (Vec::new(), Vec::new(), Vec::new());
     let band = grid.band();
     let mut mass = vec![0.0; (band + 1) * grid.nodes];
     let mut cell = 0;
@@ -43,6 +44,13 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
                     }
                 }
             }
+            let normal = spot.rotation[0];
+            let gap = dot(jump::drawn(&midplane, segment, &spot), normal);
+            let drawn = normal.map(|n| n * gap);
+            for (i, phi) in functions.into_iter().filter(|(_, phi)| *phi != 0.0) {
+                (0..components)
+                    .for_each(|d| apart.push((components * grid.row[i] + d, 0, w * phi * drawn[d])));
+            }
             jump::entries(&midplane, segment, &spot, |entry| {
                 for (i, phi) in functions.into_iter().filter(|(_, phi)| *phi != 0.0) {
                     let row = components * grid.row[i] + entry.component;
@@ -58,7 +66,15 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
         own.clear();
     }
     let b = Csr::from_triplets(components * grid.nodes, width, &b);
-    let jump = solve(&Banded::factor(band, mass), &b, components, &grid);
+    let mass = Banded::factor(band, mass);
+    let jump = solve(&mass, &b, components, &grid);
+    // the drawn gap, projected as the jump is
+    let apart = Csr::from_triplets(components * grid.nodes, 1, &apart);
+    let apart = solve(&mass, &apart, components, &grid);
+    let gap = |functions: &[(usize, f64); 3], normal: [f64; 2]| -> f64 {
+        let at = |row: usize| apart.row(row).1.first().copied().unwrap_or(0.0);
+        functions.iter().map(|&(i, n)| n * dot([at(components * i), at(components * i + 1)], normal)).sum()
+    };
 
     let mut law_points = Vec::new();
     for (i, cell) in grid.cells.iter().enumerate() {
@@ -68,13 +84,14 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
             let s = cell.start + half * (1.0 + xi);
             let (g, eta) = midplane.locate(&midplane.pieces[cell.piece], s);
             let (spot, segment) = (midplane.spot(g, eta), &midplane.segments[g]);
+            let interpolation = grid.functions(i, s);
             law_points.push(LawPoint {
                 weight: half * weight * spot.speed / (0.5 * (segment.end - segment.start)),
                 s,
                 position: spot.position,
                 rotation: spot.rotation,
-                gap: spot.gap,
-                interpolation: grid.functions(i, s),
+                gap: gap(&interpolation, spot.rotation[0]),
+                interpolation,
             });
         }
         pointwise::share_out(&mut law_points[first..], 2.0 * half);

@@ -49,11 +49,13 @@ pub enum Code {
     InitialTraction,
     /// A subdomain that nothing holds any more, and nothing pushes.
     Unheld,
+    /// A slip or an opening beyond an edge of either side.
+    Beyond,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 21] = [
+    pub const ALL: [Code; 22] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -75,6 +77,7 @@ impl Code {
         Code::Energies,
         Code::InitialTraction,
         Code::Unheld,
+        Code::Beyond,
     ];
 }
 

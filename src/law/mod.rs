@@ -162,7 +162,7 @@ impl Law {
     }
 
     /// The state before the first increment: jump 0 under the traction t₀ (n, t) (paper eq. 10), or, for `coulomb`,
-    /// faces that are `initial_gap` apart.
+    /// faces that are `initial_gap` apart, or pressed by an overlap where that is negative.
     pub fn initial_state(
         &self,
         initial_traction: Vector2<f64>,
@@ -171,7 +171,9 @@ impl Law {
         if !initial_traction.iter().all(|component| component.is_finite()) {
             return refuse("initial_traction", "initial_traction is not finite", "give two numbers [n, t]");
         }
-        not_negative("initial_gap", initial_gap)?;
+        if !initial_gap.is_finite() {
+            return refuse("initial_gap", "initial_gap is not finite", "give a distance");
+        }
         let outside = match self {
             Law::Elastic(_) => f64::NEG_INFINITY,
             Law::Coulomb(law) => law.excess(initial_traction) - ON_SURFACE * law.cohesion,
@@ -185,19 +187,22 @@ impl Law {
                 "give a traction that the sound interface can carry",
             );
         }
-        if initial_gap > 0.0 && !matches!(self, Law::Coulomb(_)) {
+        if initial_gap != 0.0 && !matches!(self, Law::Coulomb(_)) {
             return refuse("initial_gap", "initial_gap is for coulomb only", "remove it or use that law");
         }
-        if initial_gap > 0.0 && initial_traction != Vector2::zeros() {
-            return refuse("initial_gap", "an open gap carries no initial_traction", "give one of the two");
+        if initial_gap != 0.0 && initial_traction != Vector2::zeros() {
+            let what = "an open gap carries no initial_traction, and an overlap has its own";
+            return refuse("initial_gap", what, "give one of the two");
         }
+        let stiffness = self.elastic_stiffness();
+        let pressed = Vector2::new((stiffness[0] * initial_gap).min(0.0), 0.0);
         let mut jump_plastic = Vector2::new(-initial_gap, 0.0);
-        for (i, stiffness) in self.elastic_stiffness().into_iter().enumerate() {
+        for (i, stiffness) in stiffness.into_iter().enumerate() {
             if stiffness > 0.0 {
                 jump_plastic[i] -= initial_traction[i] / stiffness; // no stiffness: the elastic law carries t₀ alone
             }
         }
-        Ok(State { traction: initial_traction, jump_plastic, ..State::default() })
+        Ok(State { traction: initial_traction + pressed, jump_plastic, ..State::default() })
     }
 
     /// The state at a given jump, irreversible jump and fracture work; `Err` if the law cannot carry it.

@@ -3,7 +3,8 @@
 use crate::assembly::Joint;
 use crate::scene::InitialGap;
 
-/// Initial gap of a joint: the normal jump, with its sign turned, at which the faces meet [length].
+/// Initial gap of a joint: the normal jump, with its sign turned, at which the faces meet; negative for faces that overlap
+/// and are pressed apart [length].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gaps {
     /// The same at all law points.
@@ -27,7 +28,7 @@ impl Gaps {
             None => Gaps::Uniform(0.0),
             Some(InitialGap::Uniform(gap)) => Gaps::Uniform(gap),
             Some(InitialGap::Drawn(_)) => {
-                Gaps::Varying(joint.coupling.points.iter().map(|point| point.gap.max(0.0)).collect())
+                Gaps::Varying(joint.coupling.points.iter().map(|point| point.gap).collect())
             }
         }
     }

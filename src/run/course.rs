@@ -1,7 +1,6 @@
 //! All steps with one engine: increments of the load factor in as many parts as they need (`parts`), or the path of
 //! equilibria (`path`).
 
-use super::Clock;
 use super::engine::{Ahead, Engine, Failure};
 use super::failure::{no_equilibrium, singular, unusable};
 use super::loading::Start;
@@ -10,6 +9,7 @@ use super::parts::{Leg, Progress};
 use super::state::State;
 use super::strategy::active;
 use super::summary::{self, Resultant};
+use super::{Clock, beyond};
 use crate::error::{Error, Result};
 use crate::problem::{Problem, Stage, is_held};
 use crate::scene::{Control, Fields};
@@ -75,13 +75,19 @@ impl<'a, 'b> Course<'a, 'b> {
         Ok(self.totals)
     }
 
-    /// Lets initial tractions that supports and loads do not hold relax, before the first increment.
+    /// Lets initial tractions, and those of overlaps, that supports and loads do not hold relax, before the first increment.
     fn settle(&mut self, stage: &'a Stage, initial: &[f64]) -> Result<()> {
         let problem = self.problem;
         let mut tractions = vec![0.0; problem.model.dofs()];
         let mut sum = 0.0;
-        for (joint, (_, initial)) in problem.model.joints.iter().zip(&problem.laws) {
-            let at: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
+        let mut given = false;
+        for (k, (joint, (_, initial))) in problem.model.joints.iter().zip(&problem.laws).enumerate() {
+            let states = &problem.states[k];
+            // faces that overlap press on each other without a traction of the scene
+            let at = |p: usize| states.get(p).map_or(initial.at(p), |state| state.traction.into());
+            let points = 0..joint.coupling.points.len();
+            given |= points.clone().any(|p| initial.at(p) != [0.0; 2]);
+            let at: Vec<f64> = points.flat_map(at).collect();
             if at.iter().any(|t| *t != 0.0) {
                 joint.add_force(&at, &mut tractions);
             }
@@ -115,7 +121,7 @@ impl<'a, 'b> Course<'a, 'b> {
         self.state.accept(problem, found, load);
         self.state.released += released;
         self.state.recover(problem);
-        self.totals.initial = [rest, released];
+        self.totals.initial = if given { [rest, released] } else { [0.0; 2] };
         Ok(())
     }
 
@@ -195,6 +201,7 @@ impl<'a, 'b> Course<'a, 'b> {
             (self.totals.imbalance, self.totals.imbalance_at) = (imbalance, self.totals.increments);
         }
         self.note_unheld(place.stage);
+        beyond::note(self.problem, &self.state, self.totals.increments, &mut self.totals.beyond);
         if self.state.energy_balance().abs() > self.totals.energy_balance {
             self.totals.balance_at = self.totals.increments;
         }

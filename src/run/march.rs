@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::beyond::Beyond;
 use super::course::Course;
 use super::engine::Engine;
 use super::linear::LinearEngine;
@@ -62,6 +63,8 @@ pub struct Totals {
     pub imbalance_at: usize,
     /// Subdomains that nothing holds any more, each with the increment since which.
     pub unheld: Vec<(String, usize)>,
+    /// Jumps beyond the range of the pairs.
+    pub beyond: Vec<Beyond>,
     /// Out-of-balance of the initial tractions over their sum, and the energy that they release [force × length].
     pub initial: [f64; 2],
 }
@@ -142,6 +145,15 @@ impl Totals {
                 "subdomain {name}: nothing holds it from increment {increment} on, and nothing pushes it; it stays where it is"
             );
             warnings.push(Warning::new(Code::Unheld, what, "a support, if it should not float"));
+        }
+        for Beyond { interface, opens, increment, jump, edges, at: [x, y] } in &self.beyond {
+            let kind = if *opens { "opening" } else { "slip" };
+            let what = format!(
+                "interface {interface}: {kind} of {jump:.3e} is {edges:.1} edges near ({x:.4}, {y:.4}), more than one from increment \
+                 {increment} on; the sides are paired as they are before any displacement"
+            );
+            let help = "results hold for jumps that are small beside the edges: a smaller displacement, or coarser edges there";
+            warnings.push(Warning::new(Code::Beyond, what, help));
         }
         warnings
     }

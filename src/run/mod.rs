@@ -3,6 +3,7 @@
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
 mod arclength;
+mod beyond;
 mod clock;
 mod course;
 mod energy;
@@ -26,6 +27,7 @@ mod strategy;
 mod summary;
 mod viscous;
 
+pub use beyond::Beyond;
 pub use clock::{Clock, processor};
 pub use march::{Means, Place, Snap, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};

@@ -59,7 +59,7 @@ pub enum OneOrMany {
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum InitialGap {
-    /// The same everywhere [length], zero or more.
+    /// The same everywhere [length]; below zero the sides overlap and press on each other.
     Uniform(f64),
     /// What it says.
     Drawn(DrawnGap),
@@ -69,7 +69,7 @@ pub enum InitialGap {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DrawnGap {
-    /// The distance of the meshes, point by point; an overlap counts as zero.
+    /// The distance of the curves that the meshes draw, projected as the jump is; an overlap presses the sides apart.
     Geometry,
 }
 

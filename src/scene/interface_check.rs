@@ -92,9 +92,13 @@ impl Scene {
             return Err(self.source.refuse(&path, what, cure));
         }
         match gap {
-            InitialGap::Uniform(gap) if !(gap >= 0.0 && gap.is_finite()) => {
+            InitialGap::Uniform(gap) if !gap.is_finite() => {
                 let what = format!("{gap} is no distance");
-                Err(self.source.refuse(&path, what, "give a number, zero or more, or \"geometry\""))
+                Err(self.source.refuse(
+                    &path,
+                    what,
+                    "give a number, below zero for an overlap, or \"geometry\"",
+                ))
             }
             _ => Ok(()),
         }

@@ -1,0 +1,59 @@
+//! Jumps beyond the range in which the pairs of the undeformed sides hold.
+
+use serde::Serialize;
+
+use super::state::State;
+use crate::problem::Problem;
+
+/// A jump, of a point that carries something, by more than an edge that faces it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Beyond {
+    /// Name of the interface.
+    pub interface: String,
+    /// True for an opening, else a slip.
+    pub opens: bool,
+    /// Number of the first increment with such a jump.
+    pub increment: usize,
+    /// The largest of that increment and of those since [length].
+    pub jump: f64,
+    /// The same over the shorter of the two edges that face each other there.
+    pub edges: f64,
+    /// Its place.
+    pub at: [f64; 2],
+}
+
+/// Notes the jumps of an increment that exceed an edge of either side.
+pub(super) fn note(problem: &Problem, state: &State, increment: usize, told: &mut Vec<Beyond>) {
+    for (k, joint) in problem.model.joints.iter().enumerate() {
+        let midplane = &joint.coupling.midplane;
+        let jumps = state.snapshot.jumps[k].iter().zip(&state.snapshot.tractions[k]);
+        let mut segment = 0;
+        for (point, (jump, traction)) in joint.coupling.points.iter().zip(jumps) {
+            while segment + 1 < midplane.segments.len() && midplane.segments[segment].end < point.s {
+                segment += 1;
+            }
+            let facing = &midplane.segments[segment];
+            let edge = midplane.a.chord(facing.edge_a).min(midplane.b.chord(facing.edge_b));
+            let [opening, slip] = [jump[0], jump[1].abs()];
+            if opening.max(slip) <= edge || *traction == [0.0; 2] {
+                continue;
+            }
+            for (opens, jump) in [(true, opening), (false, slip)].into_iter().filter(|(_, jump)| *jump > edge)
+            {
+                let new = Beyond {
+                    interface: joint.name.clone(),
+                    opens,
+                    increment,
+                    jump,
+                    edges: jump / edge,
+                    at: point.position,
+                };
+                match told.iter_mut().find(|one| one.opens == opens && one.interface == joint.name) {
+                    Some(one) if new.edges > one.edges => *one = Beyond { increment: one.increment, ..new },
+                    Some(_) => {}
+                    None => told.push(new),
+                }
+            }
+        }
+    }
+}
