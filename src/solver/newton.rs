@@ -27,8 +27,10 @@ const SHOWN: f64 = 4.0;
 const SHOWN_MOST: f64 = 1e-10;
 /// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
 /// and nothing pushes then stays where it is.
-const FREE: f64 = 1e-10;
-/// But for this part of the largest jump, by which its sides are moved apart at first: rounding must not make them touch.
+const FREE: f64 = 1e-12;
+/// Where no point of a joint resists an opening, this part, and its sides are moved apart at first by the second one of the
+/// largest jump: rounding must not make them touch.
+const LOOSE: f64 = 1e-10;
 const APART: f64 = 1e-7;
 /// Law points that are named when no equilibrium is found.
 const NAMED: usize = 3;
@@ -289,10 +291,12 @@ impl Newton {
                 let c = joint.coupling.components;
                 let mut intact = vec![0.0; c * c];
                 laws.initial_stiffness(k, &mut intact);
+                let normal = if opens_freely(&stiffness, &intact) { LOOSE } else { FREE };
                 for d in stiffness.chunks_exact_mut(c * c) {
                     for i in (0..c * c).step_by(c + 1) {
-                        if d[i].abs() < FREE * intact[i] {
-                            d[i] = FREE * intact[i];
+                        let least = if i == 0 { normal } else { FREE } * intact[i];
+                        if d[i].abs() < least {
+                            d[i] = least;
                         }
                     }
                 }
@@ -302,7 +306,12 @@ impl Newton {
     }
 }
 
-/// The forces of the joints, with a push on points that do not resist; none if all do.
+/// True if no point of a joint resists an opening.
+fn opens_freely(stiffness: &[f64], intact: &[f64]) -> bool {
+    stiffness.chunks_exact(intact.len()).all(|d| d[0].abs() < FREE * intact[0])
+}
+
+/// The forces of the joints, with a push on those that do not resist it; none if all do.
 fn moved_apart<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> Option<Vec<Vec<f64>>> {
     let (mut forces, mut any) = (now.forces.clone(), false);
     for (a, &k) in form.active().iter().enumerate() {
@@ -310,17 +319,14 @@ fn moved_apart<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memor
         let c = joint.coupling.components;
         let mut intact = vec![0.0; c * c];
         laws.initial_stiffness(k, &mut intact);
+        if !opens_freely(&now.stiffness[a], &intact) {
+            continue;
+        }
+        any = true;
         let largest = now.jumps[a].iter().fold(0.0_f64, |most, jump| most.max(jump.abs()));
         let mut push = vec![0.0; now.jumps[a].len()];
-        for (push, stiffness) in push.chunks_exact_mut(c).zip(now.stiffness[a].chunks_exact(c * c)) {
-            if stiffness[0].abs() < FREE * intact[0] {
-                push[0] = -FREE * intact[0] * APART * largest;
-                any = true;
-            }
-        }
-        if any {
-            forces[a].iter_mut().zip(joint.gather(&push)).for_each(|(force, push)| *force += push);
-        }
+        push.chunks_exact_mut(c).for_each(|push| push[0] = -LOOSE * intact[0] * APART * largest);
+        forces[a].iter_mut().zip(joint.gather(&push)).for_each(|(force, push)| *force += push);
     }
     any.then_some(forces)
 }
