@@ -42,6 +42,8 @@ HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
 ENERGY_BALANCE = 1e-8  # where geo/<scene>/check.args says nothing: work − stored − dissipated − released, of the largest of them so far
 SUMMARY_KEYS = {"title", "sizes", "solution", "equilibrium", "time", "warnings"}
 STATUSES = range(5)
+LENGTH = 1e-9  # what the law points leave out of an interface
+KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
 ROUND_OFF = 1e-12  # of the quantity compared
 
 
@@ -155,9 +157,14 @@ def check_midplane(path, faults):
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     total = length[kind == 0].sum()
     faults.expect((length > 0).all(), f"{path}: a cell has no length")
-    # no equality: the chords of the grid cut the corners of a curved mid-plane
+    # no equality: the chords of the grid cut the corners of a curved mid-plane, by as much as its direction turns in a cell
     covered = length[kind == 1].sum()
     faults.expect(covered <= total * (1 + 1e-9), f"{path}: the grid is longer than its segments")
+    direction = ((ends[:, 1] - ends[:, 0]) / length[:, None])[kind == 1]
+    turns = np.linalg.norm(direction[1:] - direction[:-1], axis=1)
+    cut = 0.5 * turns[turns < KINK].max(initial=0.0) ** 2
+    pointwise = not (kind == 1).any()
+    faults.expect(pointwise or covered >= total * (1 - 1e-9 - cut), f"{path}: the grid is shorter than its segments")
 
 
 def supports(scene):
@@ -252,6 +259,12 @@ def check(results, scene, energy, faults):
         last == len(rows) or not stored,
         f"{results}: fields up to increment {last}, history up to {len(rows)}",
     )
+    for name, grid in interfaces.get(last, {}).items():
+        along, whole = grid["length"].sum(), summary["sizes"]["interfaces"][name]["length"]
+        faults.expect(
+            abs(along - whole) <= LENGTH * whole,
+            f"{results}: the law points of {name} stand for {along:.9g} of its {whole:.9g}",
+        )
     if faults:
         return ""
     energies = check_energies(results / "history.csv", scene, results, summary, rows, energy, faults)

@@ -4,15 +4,23 @@ import numpy as np
 
 from joints import subdomains_of
 
+STRAIGHT = 1e-9
 BALANCE = 1e-10  # of the largest force; where the solution is iterated, no better than its own residual
 
 
 def resultant(grid, thickness):
-    """Force of side B on side A: the tractions summed over the law points."""
+    """Force of side B on side A and its moment about the origin: the tractions summed over the law points."""
     normal = grid["normal"][:, :2]
     tangent = np.column_stack([normal[:, 1], -normal[:, 0]])
     traction = grid["traction"][:, :1] * normal + grid["traction"][:, 1:] * tangent
-    return thickness * grid["length"] @ traction
+    force = thickness * grid["length"][:, None] * traction
+    x, y = grid.points[:, :2].T
+    return np.array([*force.sum(axis=0), x @ force[:, 1] - y @ force[:, 0]])
+
+
+def is_straight(grid):
+    """True if all normals are one: on a curve the law points lie beside the edges that carry their tractions."""
+    return np.abs(grid["normal"] - grid["normal"][0]).max() < STRAIGHT
 
 
 def summed(grid, thickness):
@@ -21,17 +29,30 @@ def summed(grid, thickness):
 
 
 def check_balance(results, scene, summary, interfaces, residual, faults):
-    """Forces on the whole model and on each subdomain sum to zero. Returns the largest error of either."""
+    """Forces and moments on the whole model and on each subdomain sum to zero. Returns the largest error of either."""
     allowed, equilibrium = max(BALANCE, residual), summary["equilibrium"]
-    forces = {name: [own["load"], own["reaction"]] for name, own in equilibrium["subdomains"].items()}
+
+    def acting(own):
+        return [np.array([*own[kind], own["moment"][k]]) for k, kind in enumerate(("load", "reaction"))]
+
+    forces = {name: acting(own) for name, own in equilibrium["subdomains"].items()}
     # of a joint its tractions count, not their sum alone: that of a bent arm is a small part of what it carries
     joints = [summed(grid, scene.get("thickness", 1.0)) for grid in interfaces.values()]
-    size = max(np.abs(list(forces.values())).max(initial=np.finfo(float).tiny), *joints, 0.0)
+    largest = np.abs([part[:2] for parts in forces.values() for part in parts])
+    size = max(largest.max(initial=np.finfo(float).tiny), *joints, 0.0)
+    arm = max((np.abs(grid.points[:, :2]).max() for grid in interfaces.values()), default=1.0)
+    curved = {
+        subdomain
+        for name, grid in interfaces.items()
+        if not is_straight(grid)
+        for subdomain in sum(subdomains_of(scene, name), [])
+    }
 
-    def error(parts):
-        return np.abs(np.sum(parts, axis=0)).max() / size
+    def error(parts, moments=True):
+        rest = np.abs(np.sum(parts, axis=0)) / [size, size, size * arm]
+        return rest.max() if moments else rest[:2].max()
 
-    whole = error([equilibrium["load"], equilibrium["reaction"]])
+    whole = error(acting(equilibrium))
     faults.expect(whole <= allowed, f"{results}: loads and reactions leave {whole:.1e} of the largest force")
     for name in summary["sizes"]["interfaces"]:
         a, b = subdomains_of(scene, name)
@@ -40,7 +61,7 @@ def check_balance(results, scene, summary, interfaces, residual, faults):
         force = resultant(interfaces[name], scene.get("thickness", 1.0))
         forces[a[0]].append(force)
         forces[b[0]].append(-force)
-    errors = {subdomain: error(parts) for subdomain, parts in forces.items()}
+    errors = {subdomain: error(parts, subdomain not in curved) for subdomain, parts in forces.items()}
     for subdomain, rest in errors.items():
         faults.expect(
             rest <= allowed,

@@ -100,24 +100,35 @@ pub(super) struct Balance {
     subdomains: IndexMap<String, Forces>,
 }
 
-/// Resultants in x and y [force].
+/// Resultants in x and y [force], and their moments about the origin.
 #[derive(Debug, Clone, Copy, Serialize)]
 struct Forces {
     load: [f64; 2],
     reaction: [f64; 2],
+    /// Moment of loads, and of reactions [force × length].
+    moment: [f64; 2],
 }
 
 /// Sums loads and reactions.
 pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
     let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
-    let whole = Forces { load: sum(force), reaction: sum(reactions) };
-    let subdomains = model.bodies.iter().enumerate().map(|(b, body)| {
-        let dofs = model.dofs_of(b);
-        (body.name.clone(), Forces { load: sum(&force[dofs.clone()]), reaction: sum(&reactions[dofs]) })
-    });
+    let forces: Vec<(String, Forces)> = (model.bodies.iter().enumerate())
+        .map(|(b, body)| {
+            let dofs = model.dofs_of(b);
+            let (force, reactions) = (&force[dofs.clone()], &reactions[dofs]);
+            let moment = |values: &[f64]| {
+                let of = |(x, f): (&[f64; 2], &[f64])| x[0] * f[1] - x[1] * f[0];
+                body.mesh.points.iter().zip(values.chunks_exact(model.components)).map(of).sum::<f64>()
+            };
+            let moment = [moment(force), moment(reactions)];
+            (body.name.clone(), Forces { load: sum(force), reaction: sum(reactions), moment })
+        })
+        .collect();
+    let moments = [0, 1].map(|k| forces.iter().map(|(_, own)| own.moment[k]).sum());
+    let whole = Forces { load: sum(force), reaction: sum(reactions), moment: moments };
     let Resultant { rest, scale } = resultant(model, force, reactions);
     let imbalance = if scale > 0.0 { rest / scale } else { 0.0 };
-    Balance { whole, imbalance, subdomains: subdomains.collect() }
+    Balance { whole, imbalance, subdomains: forces.into_iter().collect() }
 }
 
 /// What is left of all loads and reactions.
