@@ -6,7 +6,7 @@
 # results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json or *path.json are no scenes.
 # Options for the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args, those for its history, if
 # that is to be drawn, in geo/<scene>/history.args, and those for the check of its results, the error that its energies
-# may have, in geo/<scene>/check.args or, for a variant, geo/<scene>/<file>.check.args.
+# may have and what is known of it, in geo/<scene>/check.args or, for a variant, geo/<scene>/<file>.check.args.
 
 .SUFFIXES:
 .DEFAULT_GOAL := all

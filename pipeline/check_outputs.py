@@ -278,6 +278,25 @@ def check(results, scene, energy, faults):
     )
 
 
+def expected(text):
+    """COLUMN=VALUE~TOLERANCE, absolute; max:COLUMN is its largest value, else the last counts"""
+    name, _, rest = text.partition("=")
+    value, _, tolerance = rest.partition("~")
+    return name, float(value), float(tolerance)
+
+
+def check_expected(path, rows, expectations, faults):
+    """What is known of the scene."""
+    for name, value, tolerance in expectations:
+        column = name.removeprefix("max:")
+        if not faults.expect(bool(rows) and column in rows[0], f"{path}: no column {column}"):
+            continue
+        found = max(row[column] for row in rows) if name != column else rows[-1][column]
+        faults.expect(
+            abs(found - value) <= tolerance, f"{path}: {name} is {found:.10g}, should be {value:.10g} within {tolerance:g}"
+        )
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__,
@@ -292,10 +311,15 @@ def main():
         default=ENERGY_BALANCE,
         help="largest |work − stored − dissipated − released|, over the largest of them so far (default: %(default)g)",
     )
+    known = {"type": expected, "action": "append", "default": [], "metavar": "COLUMN=VALUE~TOLERANCE"}
+    parser.add_argument("--expect", help="a value of the last row; max:COLUMN for the largest of a column", **known)
     arguments = parser.parse_args()
     faults = Faults()
     scene = json.loads(arguments.scene.read_text())
     sentence = check(arguments.results, scene, arguments.energy, faults)
+    if not faults and arguments.expect:
+        history = arguments.results / "history.csv"
+        check_expected(history, read_history(history, scene, faults), arguments.expect, faults)
     for fault in faults:
         print(fault, file=sys.stderr)
     if faults:

@@ -6,6 +6,7 @@ The columns, their labels and the exact solution (pipeline/exact.py) of a scene 
 import argparse
 import csv
 import json
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -38,6 +39,13 @@ def deviation(run, solution, x, y):
         return np.hypot(*(point - start - foot[:, None] * along).T).min()
 
     return max(distance(point) for point in points)
+
+
+def difference_at_the_end(run, solution, x, y):
+    """How far the last point lies beside the solution at its ordinate, relative."""
+    order = np.argsort(solution.history[y])
+    exact = np.interp(run[y][-1], solution.history[y][order], solution.history[x][order])
+    return abs(run[x][-1] / exact - 1)
 
 
 def draw_exact(axis, solution, x, y):
@@ -109,6 +117,8 @@ def main():
     parser.add_argument("--level", **bound, **many)
     parser.add_argument("--solution", choices=exact.SOLUTIONS, help="exact solution to compare with")
     parser.add_argument("--subtitle", default="", help="what the picture shows")
+    within = "what the run may be off: an exact curve, of its size; another solution, in the last abscissa, relative"
+    parser.add_argument("--within", type=float, help=within)
     arguments = parser.parse_args()
     scene = json.loads(arguments.scene.read_text())
     plt.rcParams.update(page.STYLE)
@@ -123,6 +133,12 @@ def main():
         solution = exact.SOLUTIONS[arguments.solution](scene, results)
         if solution.name == "exact":
             largest = deviation(runs[0][1], solution, arguments.x[0], arguments.y[0])
+        else:
+            largest = difference_at_the_end(runs[0][1], solution, arguments.x[0], arguments.y[0])
+        if arguments.within is not None and largest > arguments.within:
+            sys.exit(f"{arguments.results}: off the solution by {largest:.1e}, more than {arguments.within:g}")
+        print(f"{arguments.results}: off the solution by {largest:.1e}")
+        if solution.name == "exact":
             subtitle += f"; off the exact curve by {page.power_of_ten(largest)} of its size"
         arguments.level += solution.levels
     columns = (arguments.x, arguments.y)

@@ -151,3 +151,13 @@ fn what_is_left_stays_below_the_tolerance() {
         }
     }
 }
+
+#[test]
+fn an_elastic_joint_stores_half_the_work_of_its_traction() {
+    // 10 MPa on 0.2 m over 0.2 m of E = 1e4 and a joint of 1e7 MPa/m
+    let stored = "/output/history/stored=energy.stored".to_string();
+    let exact = 0.5 * 10.0 * 0.2 * 10.0 * (0.2 / 1e4 + 1.0 / 1e7);
+    let ran = run("compression", &[stored]);
+    assert!((ran.last("stored") / exact - 1.0).abs() < 1e-9, "{} and {exact}", ran.last("stored"));
+    assert!(ran.balance() < 1e-12, "{}", ran.balance());
+}

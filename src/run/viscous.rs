@@ -19,7 +19,7 @@ use crate::error::Result;
 use crate::solver::Unconverged;
 
 /// η of a whole step, of the steepest softening; where nothing softens, of the stiffness.
-const VISCOSITY: f64 = 1e-5;
+const VISCOSITY: f64 = 3e-6;
 const WITHOUT_SOFTENING: f64 = 1e-7;
 /// First viscous step, of the part that was not found.
 const FIRST: f64 = 0.1;
