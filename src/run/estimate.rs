@@ -188,7 +188,7 @@ impl<F: Form> NewtonEngine<'_, F> {
     pub(super) fn first_onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64> {
         let (target, before) = (self.target(load).ok()?, self.target(now).ok()?);
         let problem = self.problem;
-        let laws = Laws { problem, old: &state.snapshot.states, viscosity: None, lags: false, held: None };
+        let laws = Laws::alone(problem, &state.snapshot.states);
         let end = if ahead > 0.0 { Some(self.onwards(ahead)) } else { None };
         let (_, form, newton) = self.form.as_mut()?;
         let end = match end {

@@ -25,7 +25,12 @@ pub(super) struct Laws<'a> {
     pub(super) held: Option<&'a [Vec<bool>]>,
 }
 
-impl Laws<'_> {
+impl<'a> Laws<'a> {
+    /// The laws alone.
+    pub(super) fn alone(problem: &'a Problem, old: &'a [Vec<law::State>]) -> Laws<'a> {
+        Laws { problem, old, viscosity: None, lags: false, held: None }
+    }
+
     /// The answer of the law alone.
     pub(super) fn own(&self, joint: usize, point: usize, jump: &[f64]) -> Result<law::Response, String> {
         let (law, _) = &self.problem.laws[joint];

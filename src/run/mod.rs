@@ -22,6 +22,7 @@ mod path;
 pub mod point;
 mod prepare;
 mod shared;
+mod snap;
 mod state;
 mod strategy;
 mod summary;

@@ -261,13 +261,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         let Ahead { changes, near } = ahead;
         let starts =
             [self.onwards(NEAR * changes), self.onwards(if near { NEAR * changes } else { changes })];
-        let laws = Laws {
-            problem: self.problem,
-            old: &state.snapshot.states,
-            viscosity: None,
-            lags: false,
-            held: None,
-        };
+        let laws = Laws::alone(self.problem, &state.snapshot.states);
         self.solve_from(starts, &laws, load, complete)
     }
 
@@ -325,13 +319,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let laws = Laws {
-            problem: self.problem,
-            old: &state.snapshot.states,
-            viscosity: None,
-            lags: false,
-            held: None,
-        };
+        let laws = Laws::alone(self.problem, &state.snapshot.states);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = Point { x: self.unknowns.clone(), level };

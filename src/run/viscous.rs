@@ -12,7 +12,6 @@
 
 use super::course::Course;
 use super::engine::{Ahead, Failure, Viscous};
-use super::march::Snap;
 use super::parts::{Leg, Progress, Went};
 use super::state::Found;
 use crate::error::Result;
@@ -50,22 +49,16 @@ const FREE: usize = 3;
 const FREE_ITERATIONS: usize = 20;
 /// Law points that are named.
 const NAMED: usize = 3;
-/// A stretch whose viscous work is done by this part at open points that close is a gap that closes, no snap.
-const FALLS: f64 = 0.5;
-/// Released energy below this part of the largest is not told.
-pub(super) const NOTHING: f64 = 1e-6;
-/// Viscous work above this part of all that is dissipated is a snap.
-pub(super) const TOLD: f64 = 0.02;
 
 /// A viscous stretch under way.
-struct Stretch {
-    from: f64,
+pub(super) struct Stretch {
+    pub(super) from: f64,
     /// Load factor and energy released after every step.
-    work: Vec<(f64, f64)>,
+    pub(super) work: Vec<(f64, f64)>,
     /// Viscous work per area at the law points of every interface.
     at: Vec<Vec<f64>>,
     /// The part of it that open points do as they close.
-    closing: f64,
+    pub(super) closing: f64,
     iterations: usize,
 }
 
@@ -308,42 +301,11 @@ impl Course<'_, '_> {
         }
         Ok(Err(why))
     }
-
-    /// Tells a stretch that released energy as a snap.
-    fn tell(&mut self, leg: &Leg, energy: f64, stretch: &Stretch, before: f64) {
-        let released = self.state.released - before;
-        if released <= (TOLD * self.state.dissipated).max(NOTHING * energy.max(self.state.largest_energy())) {
-            return;
-        }
-        if stretch.closing > FALLS * released {
-            return; // a gap closes
-        }
-        let (interface, at) = self.place_of(&stretch.worst());
-        let half = before + 0.5 * released;
-        let (to, _) = stretch.work.last().copied().unwrap_or((leg.goal, 0.0));
-        let load_factor = stretch.work.iter().find(|(_, work)| *work >= half).map_or(to, |(level, _)| *level);
-        self.totals.snaps.push(Snap {
-            increment: self.totals.increments + 1,
-            step: leg.stage.name.clone(),
-            load_factor,
-            between: [stretch.from, to],
-            interface,
-            at,
-            released,
-        });
-    }
-
-    /// Name and position of a law point.
-    pub(super) fn place_of(&self, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
-        let Some(&(joint, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
-        let joint = &self.problem.model.joints[joint];
-        (joint.name.clone(), joint.coupling.points[point].position)
-    }
 }
 
 impl Stretch {
     /// The law points that do most of the viscous work.
-    fn worst(&self) -> Vec<(usize, usize)> {
+    pub(super) fn worst(&self) -> Vec<(usize, usize)> {
         let mut all: Vec<(f64, usize, usize)> = Vec::new();
         for (k, of) in self.at.iter().enumerate() {
             all.extend(of.iter().enumerate().map(|(p, work)| (*work, k, p)));

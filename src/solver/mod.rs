@@ -1,5 +1,6 @@
 //! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, joints and their stiffness.
 
+mod apart;
 mod base;
 mod block;
 mod blocks;
@@ -9,6 +10,7 @@ mod condensation;
 mod cut;
 mod dense;
 mod dual;
+mod evaluation;
 mod form;
 mod graph;
 mod jacobian;

@@ -4,14 +4,11 @@
 //! Jacobian; laws answer jump by jump. The line search halves a step until the residual decreases: where points open, stick
 //! and slide by turns, full steps run in circles.
 
-use rayon::prelude::*;
-
+use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
+use super::evaluation::{Evaluation, evaluate, unconverged};
+use super::{Form, Respond};
 use crate::assembly::Tangent;
 
-use super::{Form, Respond};
-
-/// A law point is asked by itself; fewer than this many are not worth a thread.
-const CHUNK: usize = 32;
 /// Most halvings of a step.
 const HALVINGS: usize = 10;
 /// Part of the linear prediction by which a step must reduce the residual.
@@ -25,15 +22,6 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 const SHOWN: f64 = 4.0;
 /// What is shown counts up to this: jumps that run away, where nothing holds the joint, would show anything.
 const SHOWN_MOST: f64 = 1e-10;
-/// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
-/// and nothing pushes then stays where it is.
-const FREE: f64 = 1e-12;
-/// Where no point of a joint resists an opening, this part, and its sides are moved apart at first by the second one of the
-/// largest jump: rounding must not make them touch.
-const LOOSE: f64 = 1e-10;
-const APART: f64 = 1e-7;
-/// Law points that are named when no equilibrium is found.
-const NAMED: usize = 3;
 
 /// When Newton ends, and with which tangent it goes.
 #[derive(Debug, Clone, Copy)]
@@ -76,24 +64,6 @@ pub struct Unconverged {
     pub worst: Vec<(usize, usize)>,
     /// Linear systems solved.
     pub iterations: usize,
-}
-
-/// A point of the search and what the laws say there.
-pub(super) struct Evaluation<M> {
-    pub(super) jumps: Vec<Vec<f64>>,
-    pub(super) tractions: Vec<Vec<f64>>,
-    pub(super) stiffness: Vec<Vec<f64>>,
-    pub(super) forces: Vec<Vec<f64>>,
-    pub(super) memory: Vec<Vec<M>>,
-    pub(super) residual: Vec<f64>,
-    pub(super) error: f64,
-}
-
-impl<M> Evaluation<M> {
-    fn into_iterate(self, x: Vec<f64>) -> Iterate<M> {
-        let Evaluation { jumps, tractions, forces, memory, error, .. } = self;
-        Iterate { x, jumps, tractions, forces, memory, iterations: 0, residuals: vec![error] }
-    }
 }
 
 /// Newton's method on one form; the tangents' patterns are built once.
@@ -306,31 +276,6 @@ impl Newton {
     }
 }
 
-/// True if no point of a joint resists an opening.
-fn opens_freely(stiffness: &[f64], intact: &[f64]) -> bool {
-    stiffness.chunks_exact(intact.len()).all(|d| d[0].abs() < FREE * intact[0])
-}
-
-/// The forces of the joints, with a push on those that do not resist it; none if all do.
-fn moved_apart<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> Option<Vec<Vec<f64>>> {
-    let (mut forces, mut any) = (now.forces.clone(), false);
-    for (a, &k) in form.active().iter().enumerate() {
-        let joint = &form.joints()[k];
-        let c = joint.coupling.components;
-        let mut intact = vec![0.0; c * c];
-        laws.initial_stiffness(k, &mut intact);
-        if !opens_freely(&now.stiffness[a], &intact) {
-            continue;
-        }
-        any = true;
-        let largest = now.jumps[a].iter().fold(0.0_f64, |most, jump| most.max(jump.abs()));
-        let mut push = vec![0.0; now.jumps[a].len()];
-        push.chunks_exact_mut(c).for_each(|push| push[0] = -LOOSE * intact[0] * APART * largest);
-        forces[a].iter_mut().zip(joint.gather(&push)).for_each(|(force, push)| *force += push);
-    }
-    any.then_some(forces)
-}
-
 /// The best of the steps tried, from a full one to a thousandth: the first that reduces the residual enough.
 fn search<L: Respond>(
     form: &impl Form,
@@ -360,61 +305,4 @@ fn search<L: Respond>(
         step *= 0.5;
     }
     best
-}
-
-pub(super) fn evaluate<L: Respond>(
-    form: &impl Form,
-    laws: &L,
-    x: &[f64],
-    target: &[f64],
-) -> Result<Evaluation<L::Memory>, Unconverged> {
-    let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut forces, mut memory) = (Vec::new(), Vec::new());
-    for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
-        let joint = &form.joints()[k];
-        let c = joint.coupling.components;
-        let jumps = joint.jumps_of(&coefficients);
-        let (mut t, mut d) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
-        let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
-            .zip(t.par_chunks_exact_mut(c))
-            .zip(d.par_chunks_exact_mut(c * c))
-            .enumerate()
-            .with_min_len(CHUNK)
-            .map(|(p, ((jump, t), d))| {
-                laws.respond(k, p, jump, t, d).map_err(|reason| Unconverged {
-                    reason,
-                    worst: vec![(k, p)],
-                    iterations: 0,
-                })
-            })
-            .collect();
-        memory.push(answers?);
-        forces.push(joint.gather(&t));
-        all_jumps.push(jumps);
-        tractions.push(t);
-        stiffness.push(d);
-    }
-    let residual = form.residual(x, &forces, target);
-    let error = form.error(&residual, x, &forces, target);
-    Ok(Evaluation { jumps: all_jumps, tractions, stiffness, forces, memory, residual, error })
-}
-
-/// Names the law points with the largest misfit.
-pub(super) fn unconverged<M>(
-    form: &impl Form,
-    reason: &str,
-    now: &Evaluation<M>,
-    iterations: usize,
-) -> Unconverged {
-    let mut worst: Vec<(f64, usize, usize)> = Vec::new();
-    for (&k, misfit) in form.active().iter().zip(form.coefficients(&now.residual)) {
-        let joint = &form.joints()[k];
-        let size = |jump: &[f64]| jump.iter().map(|r| r * r).sum::<f64>();
-        let sizes = joint.jumps_of(&misfit);
-        let sizes = sizes.chunks_exact(joint.coupling.components).map(size);
-        worst.extend(sizes.enumerate().map(|(p, size)| (size, k, p)));
-    }
-    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let worst = worst.iter().take(NAMED).map(|&(_, k, p)| (k, p)).collect();
-    Unconverged { reason: reason.into(), worst, iterations }
 }

@@ -12,7 +12,8 @@
 //! Two solves with one factor: δλ = (c·y − g) / (c·z), δx = δλ z − y with y = J⁻¹ R and z = J⁻¹ b₁. The sum of the laws' own
 //! dissipation is taken: formulas from energies hold for joints that unload to their origin, ours unload elastically.
 
-use super::newton::{Evaluation, STALLED, evaluate, unconverged};
+use super::evaluation::{Evaluation, evaluate, unconverged};
+use super::newton::STALLED;
 use super::{Form, Iterate, Newton, Respond, Settings, Unconverged};
 
 /// The constraint is met to this: it says how far to go, not where the path is.

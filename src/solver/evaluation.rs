@@ -1,0 +1,87 @@
+//! What the laws of all joints and a form say at some unknowns.
+
+use rayon::prelude::*;
+
+use super::newton::{Iterate, Unconverged};
+use super::{Form, Respond};
+
+/// A law point is asked by itself; fewer than this many are not worth a thread.
+const CHUNK: usize = 32;
+/// Law points that are named when no equilibrium is found.
+const NAMED: usize = 3;
+
+/// A point of the search and what the laws say there.
+pub(super) struct Evaluation<M> {
+    pub(super) jumps: Vec<Vec<f64>>,
+    pub(super) tractions: Vec<Vec<f64>>,
+    pub(super) stiffness: Vec<Vec<f64>>,
+    pub(super) forces: Vec<Vec<f64>>,
+    pub(super) memory: Vec<Vec<M>>,
+    pub(super) residual: Vec<f64>,
+    pub(super) error: f64,
+}
+
+impl<M> Evaluation<M> {
+    pub(super) fn into_iterate(self, x: Vec<f64>) -> Iterate<M> {
+        let Evaluation { jumps, tractions, forces, memory, error, .. } = self;
+        Iterate { x, jumps, tractions, forces, memory, iterations: 0, residuals: vec![error] }
+    }
+}
+
+/// Asks the laws at the jumps of some unknowns, and the form for what is left.
+pub(super) fn evaluate<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+    target: &[f64],
+) -> Result<Evaluation<L::Memory>, Unconverged> {
+    let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut forces, mut memory) = (Vec::new(), Vec::new());
+    for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
+        let joint = &form.joints()[k];
+        let c = joint.coupling.components;
+        let jumps = joint.jumps_of(&coefficients);
+        let (mut t, mut d) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
+        let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
+            .zip(t.par_chunks_exact_mut(c))
+            .zip(d.par_chunks_exact_mut(c * c))
+            .enumerate()
+            .with_min_len(CHUNK)
+            .map(|(p, ((jump, t), d))| {
+                laws.respond(k, p, jump, t, d).map_err(|reason| Unconverged {
+                    reason,
+                    worst: vec![(k, p)],
+                    iterations: 0,
+                })
+            })
+            .collect();
+        memory.push(answers?);
+        forces.push(joint.gather(&t));
+        all_jumps.push(jumps);
+        tractions.push(t);
+        stiffness.push(d);
+    }
+    let residual = form.residual(x, &forces, target);
+    let error = form.error(&residual, x, &forces, target);
+    Ok(Evaluation { jumps: all_jumps, tractions, stiffness, forces, memory, residual, error })
+}
+
+/// Names the law points with the largest misfit.
+pub(super) fn unconverged<M>(
+    form: &impl Form,
+    reason: &str,
+    now: &Evaluation<M>,
+    iterations: usize,
+) -> Unconverged {
+    let mut worst: Vec<(f64, usize, usize)> = Vec::new();
+    for (&k, misfit) in form.active().iter().zip(form.coefficients(&now.residual)) {
+        let joint = &form.joints()[k];
+        let size = |jump: &[f64]| jump.iter().map(|r| r * r).sum::<f64>();
+        let sizes = joint.jumps_of(&misfit);
+        let sizes = sizes.chunks_exact(joint.coupling.components).map(size);
+        worst.extend(sizes.enumerate().map(|(p, size)| (size, k, p)));
+    }
+    worst.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let worst = worst.iter().take(NAMED).map(|&(_, k, p)| (k, p)).collect();
+    Unconverged { reason: reason.into(), worst, iterations }
+}
