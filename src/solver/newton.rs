@@ -118,7 +118,12 @@ impl Newton {
             if iterations == settings.iterations || since >= settings.patience {
                 break;
             }
-            let mut correction = self.correction(form, laws, &x, &now, target, settings, iterations)?;
+            self.fill(form, laws, &now, settings);
+            // at first what is free of stress is moved apart
+            let apart = if iterations == 0 { moved_apart(form, laws, &now) } else { None };
+            let residual = apart.map(|forces| form.residual(&x, &forces, target));
+            let mut correction =
+                self.correction(form, residual.unwrap_or_else(|| now.residual.clone()), &now, iterations)?;
             correction.iter_mut().for_each(|value| *value = -*value);
             let error = now.error.max(settings.tolerance); // below that rounding decides
             let Some((next, there)) = search(form, laws, &x, &correction, target, error) else {
@@ -215,28 +220,19 @@ impl Newton {
         own.max((SHOWN * shown).min(SHOWN_MOST)).min(UNUSABLE)
     }
 
-    /// J⁻¹ R; at first with what is free of stress moved apart.
-    fn correction<L: Respond>(
+    /// J⁻¹ R by the tangents at hand.
+    fn correction<M>(
         &mut self,
         form: &mut impl Form,
-        laws: &L,
-        x: &[f64],
-        now: &Evaluation<L::Memory>,
-        target: &[f64],
-        settings: Settings,
+        mut residual: Vec<f64>,
+        now: &Evaluation<M>,
         iterations: usize,
     ) -> Result<Vec<f64>, Unconverged> {
-        self.fill(form, laws, now, settings);
-        let apart = if iterations == 0 { moved_apart(form, laws, now) } else { None };
-        let mut correction = match apart {
-            Some(forces) => form.residual(x, &forces, target),
-            None => now.residual.clone(),
-        };
         if form.factor(&self.tangents) {
-            form.solve(&mut correction);
+            form.solve(&mut residual);
         }
-        if correction.iter().all(|value| value.is_finite()) {
-            return Ok(correction);
+        if residual.iter().all(|value| value.is_finite()) {
+            return Ok(residual);
         }
         Err(unconverged(form, "the tangent is singular: nothing holds what slides or opens", now, iterations))
     }
