@@ -57,23 +57,34 @@ impl Moving {
 impl Stage {
     /// External forces at a load level [force].
     pub fn force(&self, model: &Model, load_factor: f64) -> Result<Vec<f64>> {
-        let mut force = ramp(&self.force_start, &self.force_end, load_factor);
+        let mut force = self.ramped(load_factor);
         for load in &self.changing {
             load.add(model, load_factor, &mut force)?;
         }
         Ok(force)
     }
 
+    /// The same without those that follow a formula.
+    pub fn ramped(&self, load_factor: f64) -> Vec<f64> {
+        ramp(&self.force_start, &self.force_end, load_factor)
+    }
+
     /// Displacements of the held dofs at a load level, for those at the start of the step [length].
     pub fn prescribed(&self, start: &[f64], load_factor: f64) -> Result<Vec<f64>> {
-        let mut u = ramp(start, &self.target, load_factor);
-        for (dof, _) in self.kept.iter().enumerate().filter(|(_, kept)| **kept) {
-            u[dof] = start[dof];
-        }
+        let mut u = self.moved(start, load_factor);
         for moving in &self.moving {
             u[moving.dof] = moving.at(load_factor)?;
         }
         Ok(u)
+    }
+
+    /// The same without those that follow a formula.
+    pub fn moved(&self, start: &[f64], load_factor: f64) -> Vec<f64> {
+        let mut u = ramp(start, &self.target, load_factor);
+        for (dof, _) in self.kept.iter().enumerate().filter(|(_, kept)| **kept) {
+            u[dof] = start[dof];
+        }
+        u
     }
 
     /// True if a formula in load_factor makes loads or displacements anything but a ramp.

@@ -3,7 +3,7 @@
 
 use super::engine::{Ahead, Engine, Failure};
 use super::failure::{no_equilibrium, singular, unusable};
-use super::loading::Start;
+use super::loading::{Forces, Start};
 use super::march::{NO_BALANCE, Place, Totals, Visit};
 use super::parts::{Leg, Progress};
 use super::state::State;
@@ -98,9 +98,10 @@ impl<'a, 'b> Course<'a, 'b> {
         }
         let start = Start::new(problem, stage, initial, &self.state.snapshot.u, &self.state.reactions);
         let load = start.at(0.0)?;
+        let Forces { force, released, .. } = load.forces();
         // forces of what is not in equilibrium at the start, on free dofs
         let left: Vec<f64> = (0..tractions.len())
-            .map(|i| if stage.held[i] { 0.0 } else { load.force[i] + load.released[i] - tractions[i] })
+            .map(|i| if stage.held[i] { 0.0 } else { force[i] + released[i] - tractions[i] })
             .collect();
         let rest = left.iter().map(|f| f.abs()).sum::<f64>() / sum;
         if rest <= ROUNDED {

@@ -1,6 +1,6 @@
 //! What an increment does to the energies of the state before it, and what the joints carry.
 
-use super::loading::Load;
+use super::loading::{Forces, Load};
 use super::state::{Found, JointAnswer, State};
 use crate::assembly::{Joint, Model};
 use crate::coupling::LawPoint;
@@ -67,9 +67,10 @@ impl State {
 
     /// ½ (f₀ + f₁) · Δu of loads and reactions.
     pub(super) fn work_to(&self, solution: &Solution, load: &Load) -> f64 {
+        let Forces { force, released, .. } = load.forces();
         let at = |i: usize| {
             let before = self.force[i] + self.reactions[i];
-            let now = load.force[i] + load.released[i] + solution.reactions[i];
+            let now = force[i] + released[i] + solution.reactions[i];
             0.5 * (before + now) * (solution.u[i] - self.snapshot.u[i])
         };
         (0..solution.u.len()).map(at).sum()

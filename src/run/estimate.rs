@@ -45,8 +45,8 @@ pub(super) struct Estimate {
 /// The way of a part: load in its middle, and those of the step where its load factor was found along a path.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Way<'a> {
-    pub(super) middle: &'a Load,
-    pub(super) step: Option<&'a [Load; 2]>,
+    pub(super) middle: &'a Load<'a>,
+    pub(super) step: Option<&'a [Load<'a>; 2]>,
 }
 
 /// True if every point of an interface answers elastically, or is open throughout.
@@ -132,7 +132,7 @@ impl<F: Form> NewtonEngine<'_, F> {
             states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
         }
         let onwards = Laws { problem, old: &states, viscosity: None, lags: false, held: None };
-        let end = newton.look(form, &onwards, &self.found, &target).ok()?;
+        let end = newton.look(form, &onwards, &self.found).ok()?;
         let mut estimate = Estimate::default();
         let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
         for (a, of) in found.joints.iter().enumerate() {
@@ -168,7 +168,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         let target = self.target(end).ok()?;
         let laws = Laws { problem, old, viscosity: None, lags: false, held: Some(&held) };
         let (_, form, newton) = self.form.as_mut()?;
-        let here = newton.look(form, &laws, &self.found, &target).ok()?;
+        let here = newton.look(form, &laws, &self.found).ok()?;
         let residual = form.residual(&self.found, &here.forces, &target);
         let change = residual.iter().map(|r| -r).collect();
         let there = newton.along(form, &laws, &self.found, &target, change, self.settings).ok()?;

@@ -2,7 +2,7 @@
 
 use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases};
 use super::estimate::{Estimate, Way};
-use super::loading::{Ledger, Load};
+use super::loading::{Forces, Ledger, Load};
 use super::state::{Found, JointAnswer, State};
 use crate::assembly::Joint;
 use crate::problem::Problem;
@@ -161,7 +161,8 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if let Some(found) = between.filter(usable) {
             return Ok(found);
         }
-        let solution = factored.refined(&load.loaded, &load.prescribed);
+        let Forces { loaded, prescribed, .. } = load.forces();
+        let solution = factored.refined(loaded, prescribed);
         let Answered { solution, jumps, .. } = Answered::new(solution, self.joints, &[]);
         let backward_error = solution.backward_error;
         let found = found(Some(solution), backward_error, jumps, None);

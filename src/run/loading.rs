@@ -1,14 +1,23 @@
 //! The loads of one step as the engine sees them, and what the history asks of the displacements.
 
+use std::cell::OnceCell;
+
 use crate::error::Result;
 use crate::problem::{BoundProbe, Problem, Stage};
 use crate::solver::{Measure, Ramp};
 
-/// Loads and prescribed displacements at one load level.
+/// A load level of a step. Its forces are made when they are asked for: an increment without displacements needs none.
 #[derive(Debug, Clone)]
-pub(super) struct Load {
+pub(super) struct Load<'s> {
     /// Load level in the step, 0 to 1.
     pub(super) level: f64,
+    start: &'s Start<'s>,
+    forces: OnceCell<Forces>,
+}
+
+/// Loads and prescribed displacements at one load level.
+#[derive(Debug, Clone)]
+pub(super) struct Forces {
     /// External forces [force].
     pub(super) force: Vec<f64>,
     /// What is left of released reactions [force].
@@ -17,6 +26,26 @@ pub(super) struct Load {
     pub(super) loaded: Vec<f64>,
     /// Displacements of held dofs [length].
     pub(super) prescribed: Vec<f64>,
+}
+
+impl Load<'_> {
+    /// Loads and prescribed displacements.
+    pub(super) fn forces(&self) -> &Forces {
+        self.forces.get_or_init(|| self.start.ramped(self.level))
+    }
+
+    /// The same.
+    pub(super) fn into_forces(self) -> Forces {
+        self.forces.into_inner().unwrap_or_else(|| self.start.ramped(self.level))
+    }
+
+    /// What is left of the released reactions at some dofs, summed up [force].
+    pub(super) fn left_of(&self, dofs: &[usize]) -> f64 {
+        match self.start.stage.released.is_empty() {
+            true => 0.0,
+            false => dofs.iter().map(|&dof| self.forces().released[dof]).sum(),
+        }
+    }
 }
 
 /// What a step starts from.
@@ -42,14 +71,28 @@ impl<'a> Start<'a> {
     }
 
     /// Loads at a level.
-    pub(super) fn at(&self, level: f64) -> Result<Load> {
+    pub(super) fn at(&self, level: f64) -> Result<Load<'_>> {
+        let load = Load { level, start: self, forces: OnceCell::new() };
+        if !self.stage.follows_load_factor() {
+            return Ok(load);
+        }
+        // only formulas can fail
+        let (force, prescribed) =
+            (self.stage.force(&self.problem.model, level)?, self.stage.prescribed(&self.u, level)?);
+        Ok(Load { forces: OnceCell::from(self.forces(level, force, prescribed)), ..load })
+    }
+
+    /// Where no formula is followed.
+    fn ramped(&self, level: f64) -> Forces {
+        self.forces(level, self.stage.ramped(level), self.stage.moved(&self.u, level))
+    }
+
+    fn forces(&self, level: f64, force: Vec<f64>, prescribed: Vec<f64>) -> Forces {
         let mut released = vec![0.0; self.u.len()];
         let left = |dof: usize| (1.0 - level) * self.reactions[dof];
         self.stage.released.iter().for_each(|&dof| released[dof] = left(dof));
-        let force = self.stage.force(&self.problem.model, level)?;
-        let prescribed = self.stage.prescribed(&self.u, level)?;
         let loaded = force.iter().zip(&released).zip(self.initial).map(|((f, r), f0)| f + r - f0).collect();
-        Ok(Load { level, force, released, loaded, prescribed })
+        Forces { force, released, loaded, prescribed }
     }
 
     /// Loads at both ends if they are affine between them.
@@ -57,7 +100,7 @@ impl<'a> Start<'a> {
         if self.stage.follows_load_factor() {
             return Ok(None);
         }
-        let [start, end] = [self.at(0.0)?, self.at(1.0)?];
+        let [start, end] = [self.at(0.0)?.into_forces(), self.at(1.0)?.into_forces()];
         Ok(Some(Ramp { force: [start.loaded, end.loaded], prescribed: [start.prescribed, end.prescribed] }))
     }
 

@@ -3,7 +3,7 @@
 use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases, condensations};
 use super::estimate::{Estimate, Way};
 use super::laws::Laws;
-use super::loading::{Ledger, Load};
+use super::loading::{Forces, Ledger, Load};
 use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
 use crate::assembly::{Pattern, Symmetric};
@@ -181,7 +181,8 @@ impl<F: Form> NewtonEngine<'_, F> {
             if !complete {
                 break (iterate, None);
             }
-            let solution = form.recover(&iterate.x, &iterate.forces, &load.loaded, &load.prescribed);
+            let Forces { loaded, prescribed, .. } = load.forces();
+            let solution = form.recover(&iterate.x, &iterate.forces, loaded, prescribed);
             let defect = form.defect(&iterate.x, &solution.u);
             let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
             passes += 1;
@@ -205,7 +206,10 @@ impl<F: Form> NewtonEngine<'_, F> {
         let Some((_, form, _)) = &self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let target = match self.prepared {
             true => form.prepared(load.level),
-            false => form.target(&load.loaded, &load.prescribed),
+            false => {
+                let Forces { loaded, prescribed, .. } = load.forces();
+                form.target(loaded, prescribed)
+            }
         };
         match target.iter().all(|value| value.is_finite()) {
             true => Ok(target),
@@ -351,7 +355,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn recover(&self, load: &Load) -> Option<Solution> {
         let (_, form, _) = self.form.as_ref()?;
-        Some(form.recover(&self.unknowns, &self.forces[0], &load.loaded, &load.prescribed))
+        let Forces { loaded, prescribed, .. } = load.forces();
+        Some(form.recover(&self.unknowns, &self.forces[0], loaded, prescribed))
     }
 
     fn keep(&mut self) {

@@ -11,7 +11,7 @@
 
 use super::energy::elastic_energy;
 use super::engine::Engine;
-use super::loading::{Ledger, Load};
+use super::loading::{Forces, Ledger, Load};
 use crate::assembly::{Joint, Model};
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Law};
@@ -144,14 +144,15 @@ impl State {
         if let Some(ledger) = &mut ledger {
             let first = ledger.columns.len() - problem.reactions.len();
             for (column, reaction) in ledger.columns[first..].iter_mut().zip(&problem.reactions) {
-                *column += reaction.dofs.iter().map(|&dof| load.released[dof]).sum::<f64>();
+                *column += load.left_of(&reaction.dofs);
             }
         }
         self.ledger = ledger;
         (self.snapshot.u, self.force, self.reactions) = (Vec::new(), Vec::new(), Vec::new());
         if let Some(Solution { u, mut reactions, .. }) = solution {
-            reactions.iter_mut().zip(&load.released).for_each(|(reaction, released)| *reaction += released);
-            (self.snapshot.u, self.force, self.reactions) = (u, load.force, reactions);
+            let Forces { force, released, .. } = load.into_forces();
+            reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
+            (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
         }
         for JointAnswer { joint, jumps, memory } in joints {
             let old = &mut self.snapshot.states[joint];
@@ -181,8 +182,9 @@ impl State {
             return;
         }
         if let Some(Solution { u, mut reactions, .. }) = engine.recover(&load) {
-            reactions.iter_mut().zip(&load.released).for_each(|(reaction, released)| *reaction += released);
-            (self.snapshot.u, self.force, self.reactions) = (u, load.force, reactions);
+            let Forces { force, released, .. } = load.into_forces();
+            reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
+            (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
             self.recover(problem);
         }
     }

@@ -28,6 +28,21 @@ impl<M> Evaluation<M> {
     }
 }
 
+/// The answers of the laws at the law points of every active joint, without what the form makes of them.
+#[derive(Debug)]
+pub struct Answers<M> {
+    /// Jumps (n, t, …).
+    pub jumps: Vec<Vec<f64>>,
+    /// Tractions alike.
+    pub tractions: Vec<Vec<f64>>,
+    /// Tangents, by rows.
+    pub stiffness: Vec<Vec<f64>>,
+    /// Forces q on the jump coefficients.
+    pub forces: Vec<Vec<f64>>,
+    /// What the law points remember.
+    pub memory: Vec<Vec<M>>,
+}
+
 /// Asks the laws at the jumps of some unknowns, and the form for what is left.
 pub(super) fn evaluate<L: Respond>(
     form: &impl Form,
@@ -35,6 +50,18 @@ pub(super) fn evaluate<L: Respond>(
     x: &[f64],
     target: &[f64],
 ) -> Result<Evaluation<L::Memory>, Unconverged> {
+    let Answers { jumps, tractions, stiffness, forces, memory } = ask(form, laws, x)?;
+    let residual = form.residual(x, &forces, target);
+    let error = form.error(&residual, x, &forces, target);
+    Ok(Evaluation { jumps, tractions, stiffness, forces, memory, residual, error })
+}
+
+/// Asks the laws at the jumps of some unknowns.
+pub(super) fn ask<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+) -> Result<Answers<L::Memory>, Unconverged> {
     let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
     let (mut forces, mut memory) = (Vec::new(), Vec::new());
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
@@ -61,9 +88,7 @@ pub(super) fn evaluate<L: Respond>(
         tractions.push(t);
         stiffness.push(d);
     }
-    let residual = form.residual(x, &forces, target);
-    let error = form.error(&residual, x, &forces, target);
-    Ok(Evaluation { jumps: all_jumps, tractions, stiffness, forces, memory, residual, error })
+    Ok(Answers { jumps: all_jumps, tractions, stiffness, forces, memory })
 }
 
 /// Names the law points with the largest misfit.

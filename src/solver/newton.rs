@@ -5,7 +5,7 @@
 //! and slide by turns, full steps run in circles.
 
 use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
-use super::evaluation::{Evaluation, evaluate, unconverged};
+use super::evaluation::{Answers, Evaluation, ask, evaluate, unconverged};
 use super::{Form, Respond};
 use crate::assembly::Tangent;
 
@@ -159,18 +159,17 @@ impl Newton {
         Ok(x.iter().zip(&change).map(|(x, d)| x + d).collect())
     }
 
-    /// What laws and form say at some unknowns.
+    /// The answers of the laws at some unknowns.
     pub fn look<L: Respond>(
         &self,
         form: &impl Form,
         laws: &L,
         x: &[f64],
-        target: &[f64],
-    ) -> Result<Iterate<L::Memory>, Unconverged> {
-        Ok(evaluate(form, laws, x, target)?.into_iterate(x.to_vec()))
+    ) -> Result<Answers<L::Memory>, Unconverged> {
+        ask(form, laws, x)
     }
 
-    /// The same, and again at the unknowns corrected by the factor at hand; with a change of the target also by as much of
+    /// What laws and form say at some unknowns, and again at the unknowns corrected by the factor at hand; with a change of the target also by as much of
     /// it as keeps the correction across a way.
     pub fn corrected<L: Respond>(
         &self,
