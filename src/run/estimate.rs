@@ -231,16 +231,18 @@ impl<F: Form> NewtonEngine<'_, F> {
     }
 
     /// Keeps the viscous tractions of what was found, and returns the work that they do on the way there: that of all tractions
-    /// along a straight way, less that of the laws' own by Simpson's rule.
-    pub(super) fn keep_viscous(&mut self, laws: &Laws, iterate: &Iterate<Answer>) -> f64 {
+    /// along a straight way, less that of the laws' own by Simpson's rule. And the bend of the tractions of joints that
+    /// dilate, √(Σ w |Δt|²).
+    pub(super) fn keep_viscous(&mut self, laws: &Laws, iterate: &Iterate<Answer>) -> [f64; 2] {
         self.viscous[1].clear();
         if laws.viscosity.is_none() && self.viscous[0].is_empty() {
-            return 0.0;
+            return [0.0; 2];
         }
-        let Some((_, form, _)) = &self.form else { return 0.0 };
-        let mut released = 0.0;
+        let Some((_, form, _)) = &self.form else { return [0.0; 2] };
+        let (mut released, mut bent) = (0.0, 0.0);
         for (a, &k) in form.active().iter().enumerate() {
             let points = &self.problem.model.joints[k].coupling.points;
+            let dilates = self.problem.laws[k].0.dilates();
             let mut now = Vec::with_capacity(2 * points.len());
             for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
                 // a traction that drops at the end of a step pushes on in the next
@@ -257,6 +259,7 @@ impl<F: Form> NewtonEngine<'_, F> {
                     // ½ (t₀ + t₁) − (t₀' + 4 t_m + t₁) / 6
                     let bend = 0.5 * (old.traction[i] + own)
                         - (start.traction[i] + 4.0 * middle.traction[i] + own) / 6.0;
+                    bent += if dilates { points[p].weight * bend * bend } else { 0.0 };
                     released += points[p].weight * (0.5 * (before + answer.viscous[i]) + bend) * moved[i];
                 }
             }
@@ -265,6 +268,6 @@ impl<F: Form> NewtonEngine<'_, F> {
         if laws.viscosity.is_none() {
             self.viscous[1].clear();
         }
-        self.problem.model.thickness * released
+        [self.problem.model.thickness * released, bent.sqrt()]
     }
 }

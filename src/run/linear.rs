@@ -103,6 +103,7 @@ fn found(
         ledger,
         joints,
         released: 0.0,
+        bend: 0.0,
         iterations: 0,
         wasted: 0,
         residuals: vec![backward_error],

@@ -226,7 +226,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         laws: &Laws,
         iterate: Iterate<Answer>,
     ) -> Found {
-        let released = self.keep_viscous(laws, &iterate);
+        let [released, bend] = self.keep_viscous(laws, &iterate);
         (self.found, self.forces[1]) = (iterate.x, iterate.forces);
         let active = self.form.iter().flat_map(|(_, form, _)| form.active());
         let joints = active.zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
@@ -236,7 +236,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
-        Found { solution, ledger, joints: joints.collect(), released, iterations, wasted: 0, residuals }
+        Found { solution, ledger, joints: joints.collect(), released, bend, iterations, wasted: 0, residuals }
     }
 }
 

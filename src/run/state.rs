@@ -84,6 +84,8 @@ pub(super) struct Found {
     pub(super) joints: Vec<JointAnswer>,
     /// Viscous work [force × length].
     pub(super) released: f64,
+    /// Bend of the tractions of joints that dilate in a viscous step: their mean less Simpson's, √(Σ w |Δt|²).
+    pub(super) bend: f64,
     pub(super) iterations: usize,
     /// Iterations of a search before that found nothing.
     pub(super) wasted: usize,

@@ -27,6 +27,8 @@ const LONGEST: f64 = 1.0 / 200.0;
 /// A step that changes more than this of what is carried is divided, unless c is above this part of the stiffness.
 const CHANGE: f64 = 0.3;
 const STIFF: f64 = 0.1;
+/// The tractions of joints that dilate may bend by so many times the tolerance of the path in a step, of what is carried.
+const BEND: f64 = 2.0;
 /// Factor between steps, and the iterations of one that is found with ease.
 const FACTOR: f64 = 3.0;
 const EASY: usize = 6;
@@ -71,8 +73,9 @@ struct Motion {
     closing: f64,
     /// c times the first.
     pull: f64,
-    /// Change of what is carried, of it.
+    /// Change of what is carried, and the bend of the tractions of joints that dilate, of it.
     change: f64,
+    bend: f64,
 }
 
 impl Course<'_, '_> {
@@ -110,6 +113,7 @@ impl Course<'_, '_> {
         let [eta, stiffness, softening] = self.scales();
         at.patience = if at.fresh { (2 * at.patience).min(64) } else { 4 };
         let (mut wait, mut hold) = (at.patience, 0);
+        let most_bent = BEND * self.problem.solution.path_tolerance;
         let (mut step, mut last) = ((FIRST * width).min(LONGEST), 0.0);
         loop {
             let at_goal = at.level >= leg.goal;
@@ -138,13 +142,14 @@ impl Course<'_, '_> {
                 c < STIFF * stiffness,
                 stretch,
             )? {
-                Ok(Motion { iterations, .. }) => {
+                Ok(Motion { iterations, bend, .. }) => {
                     last = step;
                     at.level = to;
                     (hold, wait) = (hold.max(1) - 1, wait.max(1) - 1);
-                    if hold == 0 && iterations <= EASY {
-                        step *= FACTOR;
-                    }
+                    let grow = if hold == 0 && iterations <= EASY { FACTOR } else { 1.0 };
+                    // a joint that dilates presses or opens off a straight way; in a snap, where steps are tiny, that is no matter
+                    let tiny = c > STIFF * stiffness;
+                    step *= if tiny { grow } else { grow.min((most_bent / bend).sqrt().max(1.0 / FACTOR)) };
                 }
                 Err(why) => {
                     (step, last, hold) = (step / FACTOR, 0.0, 2);
@@ -199,9 +204,10 @@ impl Course<'_, '_> {
             return Ok(Err(too_far("the tractions change too much")));
         }
         let [moved, closing] = self.state.moved(self.problem, &found);
+        let bend = found.bend / scale.max(f64::MIN_POSITIVE);
         self.take_viscous(found, load, stretch);
         let (pull, change) = (viscous.viscosity * moved, change / scale.max(f64::MIN_POSITIVE));
-        Ok(Ok(Motion { iterations, moved, closing, pull, change }))
+        Ok(Ok(Motion { iterations, moved, closing, pull, change, bend }))
     }
 
     fn take_viscous(&mut self, found: Found, load: super::loading::Load, stretch: &mut Stretch) {
@@ -264,7 +270,7 @@ impl Course<'_, '_> {
             }
             let strict = left < VERY_NEAR && !refused;
             match self.creep(leg, at, at.level, Viscous { viscosity: c, ahead, strict }, false, stretch)? {
-                Ok(Motion { iterations, moved, closing, pull, change }) => {
+                Ok(Motion { iterations, moved, closing, pull, change, .. }) => {
                     // the same force on growing steps of what only slides or opens: nothing holds it
                     let same =
                         (pull / before - 1.0).abs() < SAME && change < SAME && closing < CLOSES * moved;
