@@ -224,8 +224,8 @@ def collection(path, faults):
     return [path.parent / file for file in named if file in present]
 
 
-def check(results, scene, energy, faults):
-    """All checks of one results folder. Returns the sentence for the user."""
+def check(results, scene, energy, expectations, faults):
+    """All checks of one results folder, and what is known of it. Returns the sentence for the user."""
     for name in ("history.csv", "summary.json"):
         if not faults.expect((results / name).is_file(), f"{results}: no {name}"):
             return ""
@@ -271,6 +271,7 @@ def check(results, scene, energy, faults):
     fields = interfaces.get(last, {})
     residual = rows[-1]["residual"] if rows else 0.0
     whole, part = check_balance(results, scene, summary, fields, residual, faults)
+    check_expected(results, rows, fields, expectations, faults)
     return (
         f"{len(files)} VTU files, increments: {len(rows)}; loads and reactions balance to {whole:.1e}, "
         + ("" if part is None else f"subdomains with their interfaces to {part:.1e}, ")
@@ -279,22 +280,33 @@ def check(results, scene, energy, faults):
 
 
 def expected(text):
-    """COLUMN=VALUE~TOLERANCE, absolute; max:COLUMN is its largest value, else the last counts"""
-    name, _, rest = text.partition("=")
+    """VALUE=NUMBER~TOLERANCE, absolute; VALUE as in `value_of`"""
+    name, _, rest = text.rpartition("=")
     value, _, tolerance = rest.partition("~")
     return name, float(value), float(tolerance)
 
 
-def check_expected(path, rows, expectations, faults):
+def value_of(name, rows, fields):
+    """COLUMN: its last value; max:COLUMN: its largest; COLUMN@max:OTHER: its value where another is largest; INTERFACE#STATUS: the
+    length along which law points have that status in the last fields. None if there is no such thing."""
+    interface, _, status = name.rpartition("#")
+    if interface in fields:
+        field = fields[interface]
+        return field["length"][field["status"] == int(status)].sum()
+    column, _, largest = name.partition("@max:") if "@max:" in name else (name.removeprefix("max:"), "", "")
+    largest = largest or (column if name != column else "")
+    if not rows or column not in rows[0] or (largest and largest not in rows[0]):
+        return None
+    return max(rows, key=lambda row: row[largest])[column] if largest else rows[-1][column]
+
+
+def check_expected(results, rows, fields, expectations, faults):
     """What is known of the scene."""
     for name, value, tolerance in expectations:
-        column = name.removeprefix("max:")
-        if not faults.expect(bool(rows) and column in rows[0], f"{path}: no column {column}"):
-            continue
-        found = max(row[column] for row in rows) if name != column else rows[-1][column]
-        faults.expect(
-            abs(found - value) <= tolerance, f"{path}: {name} is {found:.10g}, should be {value:.10g} within {tolerance:g}"
-        )
+        found = value_of(name, rows, fields)
+        if faults.expect(found is not None, f"{results}: no column or interface for {name}"):
+            wanted = f"should be {value:.10g} within {tolerance:g}"
+            faults.expect(abs(found - value) <= tolerance, f"{results}: {name} is {found:.10g}, {wanted}")
 
 
 def main():
@@ -311,15 +323,13 @@ def main():
         default=ENERGY_BALANCE,
         help="largest |work − stored − dissipated − released|, over the largest of them so far (default: %(default)g)",
     )
-    known = {"type": expected, "action": "append", "default": [], "metavar": "COLUMN=VALUE~TOLERANCE"}
-    parser.add_argument("--expect", help="a value of the last row; max:COLUMN for the largest of a column", **known)
+    known = {"type": expected, "action": "append", "default": [], "metavar": "VALUE=NUMBER~TOLERANCE"}
+    forms = "COLUMN of the last row, max:COLUMN, COLUMN@max:OTHER, or INTERFACE#STATUS, the length with a status"
+    parser.add_argument("--expect", help=f"what is known of a value: {forms}", **known)
     arguments = parser.parse_args()
     faults = Faults()
     scene = json.loads(arguments.scene.read_text())
-    sentence = check(arguments.results, scene, arguments.energy, faults)
-    if not faults and arguments.expect:
-        history = arguments.results / "history.csv"
-        check_expected(history, read_history(history, scene, faults), arguments.expect, faults)
+    sentence = check(arguments.results, scene, arguments.energy, arguments.expect, faults)
     for fault in faults:
         print(fault, file=sys.stderr)
     if faults:

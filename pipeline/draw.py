@@ -11,6 +11,7 @@ library for that (libosmesa6 or libegl1) only the graphs are drawn, and a line s
 
 import argparse
 import json
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -23,7 +24,7 @@ import page
 from exact import SOLUTIONS
 from joints import entry_of, subdomains_of
 from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
-from traction import draw_traction
+from traction import deviation, draw_traction
 
 FEW = 60  # segments that one picture can show
 
@@ -253,6 +254,8 @@ def parse_arguments():
     parser.add_argument("--exact", help=exact, metavar="[INTERFACE.]n=VALUE[@FROM:TO]", type=parse_exact, **many)
     solution = "the exact solution of this scene, for its tractions"
     parser.add_argument("--solution", help=solution, choices=SOLUTIONS)
+    within = "what tractions may be off the exact ones, of the largest of these"
+    parser.add_argument("--within", type=float, help=within)
     parser.add_argument("--label", help="name of this run beside others, default: its coupling")
     return parser.parse_args()
 
@@ -281,6 +284,11 @@ def main():
         label = arguments.label or entry.get("coupling", "projected")
         here = [values for interface, *values in known if interface in ("", name)]
         draw_traction(results, name, entry["law"], label, others, here, title, units)
+        if here:
+            largest = deviation(results, name, here)
+            print(f"{arguments.results}: tractions of {name} are off the exact ones by {largest:.1e}")
+            if arguments.within is not None and largest > arguments.within:
+                sys.exit(f"{arguments.results}: that is more than {arguments.within:g}")
     if not page.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return

@@ -9,6 +9,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from inclusion import disc
+from traction import arc_length
+
 MANY = 4000  # points of a curve
 
 
@@ -151,4 +154,24 @@ def pull_bar(scene, results):
     return Exact(curve, traction, [(first, "the pulled end slips")], [bound])
 
 
-SOLUTIONS = {"tension": tension, "dcb": dcb, "friction_block": friction_block, "pull_bar": pull_bar}
+def inclusion(scene, results):
+    """A disc in an infinite plate under tension along x: `inclusion.disc`, with θ from the x axis."""
+    entry = scene["interfaces"]["rim"]
+    law, (stiff, soft) = entry["law"], (scene["materials"][name] for name in ("stiff", "soft"))
+    radius = 0.5 * sizes(results.subdomains["inclusion"])[0]
+    springs = law["normal_stiffness"], law["tangential_stiffness"]
+    amplitudes = disc(
+        radius, stiff["young"], stiff["poisson"], soft["young"], soft["poisson"], *springs
+    )
+    pull = scene["steps"][0]["load"]["plate.right"]["traction"][0]
+    places = results.interfaces["rim"].points[:, :2]
+    points, segments, _, _ = results.midplane("rim")
+    s, angle = arc_length(places, points[segments[0, 0]]), np.arctan2(places[:, 1], places[:, 0])
+    normal = amplitudes["n0"] + amplitudes["n2"] * np.cos(2 * angle)
+    shear = -amplitudes["t2"] * np.sin(2 * angle)
+    return Exact({}, {"n": (s, pull * normal), "t": (s, pull * shear)})
+
+
+SOLUTIONS = {"tension": tension, "dcb": dcb, "friction_block": friction_block, "pull_bar": pull_bar,
+    "inclusion": inclusion,
+}

@@ -7,6 +7,7 @@ the curves of the point: RESULTS/pictures/example2.png. The runs stay in RESULTS
 import argparse
 import json
 import subprocess
+import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -68,6 +69,8 @@ def main():
     parser.add_argument("path", type=Path, help="path of the point, such as geo/shear/path.json")
     parser.add_argument("results", type=Path, help="where to leave all, such as results/shear")
     parser.add_argument("scenes", type=Path, nargs=2, help="scene files, a panel each")
+    within = "what the runs may be off the curves of one point, of the peak"
+    parser.add_argument("--within", type=float, help=within)
     arguments = parser.parse_args()
     plt.rcParams.update(page.STYLE)
 
@@ -89,6 +92,9 @@ def main():
         energies = [law["fracture_energy_i"], law["fracture_energy_iia"]]
         text = "$G_I$ = {:g}, $G_{{IIa}}$ = {:g} MPa·m".format(*energies)
         axis.annotate(text, (0.03, 0.95), xycoords="axes fraction")
+    print(f"{arguments.results}: off the curves of one point by {deviation:.1e} of the peak")
+    if arguments.within is not None and max(spread, deviation) > arguments.within:
+        sys.exit(f"{arguments.results}: that, or {spread:.1e} between law points, is more than {arguments.within:g}")
     axes[0].set(ylim=(0, 26), ylabel="shear stress $\\tau$ [MPa]")
     title = "The mesh carries the curve of one point"
     subtitle = (

@@ -43,6 +43,19 @@ def draw_traction(results, name, law, label, others, exact, title, units):
     page.save(figure, results.pictures / f"traction_{name}.png")
 
 
+def deviation(results, name, exact):
+    """Largest difference from exact tractions at the law points, over the largest of these."""
+    points, segments, _, _ = results.midplane(name)
+    field, largest, size = results.interfaces[name], 0.0, 0.0
+    s = arc_length(field.points[:, :2], points[segments[0, 0]])
+    for component, places, values in exact:
+        there = (s >= places[0]) & (s <= places[-1]) if places is not None else np.full(len(s), True)
+        wanted = np.interp(s, places, values) if places is not None else np.full(len(s), values[0])
+        off = np.abs(field["traction"][:, "nt".index(component)] - wanted)
+        largest, size = max(largest, off[there].max()), max(size, np.abs(values).max())
+    return largest / size
+
+
 def draw_limit(axis, results, name, law):
     """The largest friction under the normal traction there is, on the side to which most of the joint is pushed."""
     field, (points, segments, _, _) = results.interfaces[name], results.midplane(name)

@@ -222,7 +222,7 @@ fn random_box(number: u64) {
     let increments = if random.between(0.0, 1.0) < 0.5 { 5 } else { 50 };
     println!("{number}: {law:?}");
     let balance = run(&law.text(), mesh, pressure, 1e-3, increments, "").balance;
-    assert!(balance < 0.05, "{number}: energies are out of balance by {balance}");
+    assert!(balance < 0.01, "{number}: energies are out of balance by {balance}");
 }
 
 #[test]

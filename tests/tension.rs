@@ -10,7 +10,6 @@ mod common;
 mod table;
 
 use common::*;
-use midplane::error::Error;
 use midplane::shape::Shape;
 use table::Table;
 
@@ -129,7 +128,7 @@ fn newton_converges_quadratically_with_the_consistent_tangent_only() {
                 if residuals.len() > 9 { format!(" … {} in all", residuals.len()) } else { String::new() };
             table.row(&[strategy.into(), tangent.into(), shown.join(" ") + &more, format!("{order:.2}")]);
             if tangent == "consistent" {
-                assert!(order > 1.8, "{strategy}: {residuals:?}");
+                assert!((order - 2.0).abs() < 0.15, "{strategy}: {residuals:?}");
                 assert!(residuals.len() <= 9, "{strategy}: {residuals:?}");
             } else {
                 assert!(order < 1.2 && residuals.len() > 20, "{strategy}: {residuals:?}");
@@ -140,7 +139,7 @@ fn newton_converges_quadratically_with_the_consistent_tangent_only() {
 }
 
 #[test]
-fn a_bar_that_snaps_back_jumps_to_the_end_of_the_jump_or_stops() {
+fn a_bar_that_snaps_back_snaps_to_the_far_branch() {
     let length = 1.0;
     let peak = CHI * (length / E + 1.0 / KN);
     // the listed stress after the jump at the peak's displacement
@@ -154,9 +153,7 @@ fn a_bar_that_snaps_back_jumps_to_the_end_of_the_jump_or_stops() {
         let exact_u = if u <= peak * (1.0 + 1e-9) { s / CHI * peak } else { exact(length, s) };
         close(u, exact_u, 1e-6, peak, "on the path");
     }
-    match march.end {
-        Ok(_) => assert!(march.states[11].snapshot.tractions[0][0][0] < below),
-        Err(Error::NoEquilibrium { .. }) => assert!(march.states.len() >= 10),
-        Err(other) => panic!("{other}"),
-    }
+    let totals = march.end.unwrap();
+    assert_eq!(totals.snaps.len(), 1);
+    assert!(march.states[11].snapshot.tractions[0][0][0] < below);
 }

@@ -135,7 +135,7 @@ fn case_2_bending_patch() {
             if shape.is_quadratic() {
                 assert!(errors_u.iter().chain(&errors_t).all(|&e| e < 1e-11), "{shape:?} {coupling}");
             } else {
-                assert!((rate(&errors_u) - 2.0).abs() < 0.25, "{shape:?} {coupling}: {}", rate(&errors_u));
+                assert!((rate(&errors_u) - 2.0).abs() < 0.1, "{shape:?} {coupling}: {}", rate(&errors_u));
             }
         }
     }
@@ -314,9 +314,14 @@ fn case_5b_strip_under_harmonic_pressure() {
                     format!("{:.2}", rates[1]),
                 ]);
                 let name = format!("{shape:?} {mesh} {stiffness:e}");
-                let (order, least) = if shape.is_quadratic() { (4.0, 2.5) } else { (2.0, 1.4) };
-                assert!((rates[0] - order).abs() < 0.25, "{name}: energy rate {}", rates[0]);
-                assert!(rates[1] >= least, "{name}: traction rate {}", rates[1]);
+                // one cell at either end of a stiff joint is off by h, which is h^1.5 in L2
+                let (order, band) = match (shape.is_quadratic(), stiffness > 1.0) {
+                    (true, _) => (4.0, 2.8..=3.1),
+                    (false, false) => (2.0, 1.95..=2.1),
+                    (false, true) => (2.0, 1.5..=2.1),
+                };
+                assert!((rates[0] - order).abs() < 0.15, "{name}: energy rate {}", rates[0]);
+                assert!(band.contains(&rates[1]), "{name}: traction rate {}", rates[1]);
                 if mesh == "2:3"
                     && stiffness > 1.0
                     && let Some((e, t)) = published(shape)

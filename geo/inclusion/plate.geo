@@ -13,9 +13,9 @@
 // Physical groups: hole, left, right, top, bottom (curves), corner (point 6), body (surface).
 
 DefineConstant[ radius = {1.0, Name "Radius of the hole [m]"} ];
-DefineConstant[ side   = {4.0, Name "Half of the width [m]"} ];
+DefineConstant[ side   = {8.0, Name "Half of the width [m]"} ];
 DefineConstant[ edges  = {36, Name "Edges along the joint, a multiple of four"} ];
-DefineConstant[ coarse = {0.8, Name "Size of the elements at the sides [m]"} ];
+DefineConstant[ coarse = {1.6, Name "Size of the elements at the sides [m]"} ];
 
 size = 2 * Pi * radius / edges;
 Point(1) = {0, 0, 0, size};
