@@ -32,6 +32,8 @@ pub struct Body {
     pub density: f64,
     /// Number of its first node in the model.
     pub first_node: usize,
+    /// Nodes of its pieces where it falls into several, which share nodes at most; none if it is one.
+    pub pieces: Vec<Vec<usize>>,
 }
 
 /// All bodies and joints with their numbering.

@@ -100,6 +100,7 @@ impl Problem {
         warnings.extend(cover::shares(scene, &model, &plans)?);
         let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
         warnings.extend(unjoined);
+        model.bodies.iter_mut().zip(&connectivity).for_each(|(body, found)| body.pieces = found.nodes(body));
         let (stages, reactions) = history::stages(scene, &model)?;
         warnings.extend(idle::loads(scene, &model)?);
         warnings.extend(idle::keys(scene, &plans));
@@ -135,7 +136,14 @@ fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
     let bodies = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {
         let material = scene.materials[&subdomain.material];
         let elasticity = Elasticity::new(material.young, material.poisson, plane);
-        let body = Body { name: name.clone(), mesh, elasticity, density: material.density, first_node };
+        let body = Body {
+            name: name.clone(),
+            mesh,
+            elasticity,
+            density: material.density,
+            first_node,
+            pieces: Vec::new(),
+        };
         first_node += body.mesh.points.len();
         body
     });

@@ -76,6 +76,20 @@ pub(super) fn look(model: &Model, plans: &[Plan]) -> Result<(Vec<Connectivity>, 
 }
 
 impl Connectivity {
+    /// Nodes of the pieces of a subdomain; none if it is in one.
+    pub(super) fn nodes(&self, body: &Body) -> Vec<Vec<usize>> {
+        let Pieces { count, of_cell, .. } = &self.pieces;
+        let mut nodes = vec![Vec::new(); if *count < 2 { 0 } else { *count }];
+        for (cell, &piece) in of_cell.iter().enumerate().filter(|_| *count > 1) {
+            nodes[piece].extend_from_slice(body.mesh.cells.nodes(cell));
+        }
+        for piece in &mut nodes {
+            piece.sort_unstable();
+            piece.dedup();
+        }
+        nodes
+    }
+
     /// "up falls into 2 pieces that share only the node at (1, 0.5)"; nothing of a subdomain in one piece.
     pub(super) fn told(&self, body: &Body) -> Option<String> {
         let Pieces { count, hinges, .. } = &self.pieces;

@@ -67,7 +67,7 @@ impl<'a> Blocks<'a> {
         let mut unknowns = first[joints.len()];
         let mut starts = Vec::new();
         for b in 0..continuum.bodies() {
-            starts.push((unknowns, most(continuum.pattern_of(b))));
+            starts.push((unknowns, most(continuum.components(), continuum.pieces_of(b))));
             unknowns += starts[b].1;
         }
         let block = |b: usize| Block::new(&bodies, joints, &first, b, starts[b]);
@@ -84,7 +84,8 @@ impl<'a> Blocks<'a> {
 
     /// Number of unknowns for a continuum: jump coefficients and rigid motions.
     pub fn unknowns(continuum: &Continuum, joints: &[Joint]) -> usize {
-        let motions: usize = (0..continuum.bodies()).map(|b| most(continuum.pattern_of(b))).sum();
+        let motions: usize =
+            (0..continuum.bodies()).map(|b| most(continuum.components(), continuum.pieces_of(b))).sum();
         joints.iter().map(Joint::size).sum::<usize>() + motions
     }
 

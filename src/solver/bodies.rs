@@ -36,7 +36,8 @@ impl<'a> Bodies<'a> {
         let make = |b: usize| {
             let (dofs, places) = (continuum.dofs_of(b), continuum.places_of(b));
             let held = &held[dofs.clone()];
-            let motions = free_motions(continuum.pattern_of(b), continuum.coordinates_of(b), held, &places);
+            let (pieces, x) = (continuum.pieces_of(b), continuum.coordinates_of(b));
+            let motions = free_motions(continuum.components(), pieces, x, held, &places);
             let mut s = continuum.schur_of(&condensation, b).clone();
             let inside = places.iter().enumerate().filter_map(|(dof, place)| Some((dof, (*place)? as usize)));
             for (dof, k) in inside.clone() {

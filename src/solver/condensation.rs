@@ -13,7 +13,7 @@ use faer::{Mat, MatMut};
 use rayon::prelude::*;
 
 use super::{Condensed, NotPositiveDefinite, Shelf, Substructure, TooLarge};
-use crate::assembly::{Model, Pattern};
+use crate::assembly::Model;
 
 /// The bodies, each planned alone, and how their dofs are numbered together.
 #[derive(Debug)]
@@ -27,6 +27,8 @@ pub struct Continuum {
     pub(super) places: Vec<Option<u32>>,
     /// Of all nodes, one after the other.
     coordinates: Vec<f64>,
+    /// Nodes of the pieces of every body that falls into several.
+    pieces: Vec<Vec<Vec<usize>>>,
     shelf: Option<Arc<Shelf>>,
     found: Mutex<Found>,
 }
@@ -80,7 +82,8 @@ impl Continuum {
             places.extend(inside.map(|place| place.map(|place| start as u32 + place)));
         }
         let (coordinates, found) = (model.coordinates(), Mutex::new(found));
-        Ok(Continuum { bodies, dofs, borders, places, coordinates, shelf, found })
+        let pieces = model.bodies.iter().map(|body| body.pieces.clone()).collect();
+        Ok(Continuum { bodies, dofs, borders, places, coordinates, pieces, shelf, found })
     }
 
     /// What was on the shelf so far.
@@ -114,9 +117,14 @@ impl Continuum {
         self.places[self.dofs_of(body)].iter().map(|place| place.map(|place| place - start)).collect()
     }
 
-    /// Pattern of a body.
-    pub(super) fn pattern_of(&self, body: usize) -> &Pattern {
-        &self.bodies[body].pattern
+    /// Displacement components per node.
+    pub(super) fn components(&self) -> usize {
+        self.bodies.first().map_or(0, |body| body.pattern.components())
+    }
+
+    /// Nodes of the pieces of a body that falls into several.
+    pub(super) fn pieces_of(&self, body: usize) -> &[Vec<usize>] {
+        &self.pieces[body]
     }
 
     /// Coordinates of a body's nodes, one after the other.

@@ -1,77 +1,151 @@
-//! Rigid motions of a body that its supports leave free: those of every connected piece.
+//! Rigid motions of a body that its supports leave free: those of every piece. Pieces that share a node move alike there.
+//!
+//! ```text
+//! free motions of hinged pieces      null space of  Σ v vᵀ at held dofs  +  Σ (vₚ − v_q)(vₚ − v_q)ᵀ at their hinges
+//! ```
+
+use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use crate::assembly::Pattern;
-
-/// A motion that supports resist by less than this part of a node's is free.
+/// A motion that supports and hinges resist by less than this part of a node's is free.
 const FREE: f64 = 1e-12;
 /// What a motion must leave on the border when those before it are taken away.
 const SEEN: f64 = 1e-8;
 
-/// Free motions on all dofs of a body, orthonormal on its border (dofs with a place). At most `most` of the pattern.
+/// Free motions on all dofs of a body, orthonormal on its border (dofs with a place). `pieces`: their nodes where it falls
+/// into several. At most `most` of them.
 pub(super) fn free_motions(
-    pattern: &Pattern,
+    components: usize,
+    pieces: &[Vec<usize>],
     coordinates: &[f64],
     held: &[bool],
     places: &[Option<u32>],
 ) -> Vec<Vec<f64>> {
-    let pieces = pieces(pattern);
-    pieces.iter().flat_map(|nodes| of_piece(nodes, pattern, coordinates, held, places)).collect()
+    let whole = [(0..coordinates.len() / components).collect()];
+    let pieces = if pieces.is_empty() { &whole } else { pieces };
+    let pieces: Vec<Piece> = pieces.iter().map(|nodes| Piece::new(components, nodes, coordinates)).collect();
+    let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (p, piece) in pieces.iter().enumerate().filter(|_| pieces.len() > 1) {
+        piece.nodes.iter().for_each(|&node| of_node.entry(node).or_default().push(p));
+    }
+    of_node.retain(|_, pieces| pieces.len() > 1);
+    let chains = chains(pieces.len(), &of_node);
+    chains.iter().flat_map(|chain| of_chain(chain, &pieces, &of_node, held, places)).collect()
 }
 
 /// Most motions that a body can have.
-pub(super) fn most(pattern: &Pattern) -> usize {
-    let c = pattern.components();
-    pieces(pattern).len() * (c + c * (c - 1) / 2)
+pub(super) fn most(components: usize, pieces: &[Vec<usize>]) -> usize {
+    pieces.len().max(1) * (components + components * (components - 1) / 2)
 }
 
-fn of_piece(
-    nodes: &[usize],
-    pattern: &Pattern,
-    coordinates: &[f64],
+/// A piece and its rigid motions: translations, then turns about its centre in every plane of axes.
+struct Piece<'a> {
+    nodes: &'a [usize],
+    coordinates: &'a [f64],
+    centre: Vec<f64>,
+    size: f64,
+    planes: Vec<(usize, usize)>,
+}
+
+impl<'a> Piece<'a> {
+    fn new(c: usize, nodes: &'a [usize], coordinates: &'a [f64]) -> Piece<'a> {
+        let at = |node: usize, d: usize| coordinates[c * node + d];
+        let mean = |d: usize| nodes.iter().map(|&node| at(node, d)).sum::<f64>() / nodes.len() as f64;
+        let centre: Vec<f64> = (0..c).map(mean).collect();
+        let reach = |&node: &usize| (0..c).map(|d| (at(node, d) - centre[d]).powi(2)).sum::<f64>().sqrt();
+        let size = nodes.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
+        let planes = (0..c).flat_map(|p| (p + 1..c).map(move |q| (p, q))).collect();
+        Piece { nodes, coordinates, centre, size, planes }
+    }
+
+    fn components(&self) -> usize {
+        self.centre.len()
+    }
+
+    fn count(&self) -> usize {
+        self.components() + self.planes.len()
+    }
+
+    /// A component of a motion at a node.
+    fn value(&self, mode: usize, node: usize, d: usize) -> f64 {
+        let c = self.components();
+        let from = |d: usize| (self.coordinates[c * node + d] - self.centre[d]) / self.size;
+        match mode.checked_sub(c).map(|k| self.planes[k]) {
+            None => f64::from(u8::from(mode == d)),
+            Some((p, q)) if p == d => -from(q),
+            Some((p, q)) if q == d => from(p),
+            Some(_) => 0.0,
+        }
+    }
+}
+
+/// Pieces that hang together by hinges, each chain ascending. `of_node`: pieces of the nodes that several share.
+fn chains(count: usize, of_node: &BTreeMap<usize, Vec<usize>>) -> Vec<Vec<usize>> {
+    let mut chain: Vec<usize> = (0..count).collect();
+    for pieces in of_node.values() {
+        let (to, from): (usize, Vec<usize>) =
+            (pieces.iter().map(|&p| chain[p]).min().unwrap_or(0), pieces.iter().map(|&p| chain[p]).collect());
+        chain.iter_mut().filter(|of| from.contains(of)).for_each(|of| *of = to);
+    }
+    let mut all: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    chain.iter().enumerate().for_each(|(p, &of)| all.entry(of).or_default().push(p));
+    all.into_values().collect()
+}
+
+/// The free motions of pieces that hang together.
+fn of_chain(
+    chain: &[usize],
+    pieces: &[Piece],
+    of_node: &BTreeMap<usize, Vec<usize>>,
     held: &[bool],
     places: &[Option<u32>],
 ) -> Vec<Vec<f64>> {
-    let c = pattern.components();
-    let at = |node: usize, d: usize| coordinates[c * node + d];
-    let centre: Vec<f64> =
-        (0..c).map(|d| nodes.iter().map(|&node| at(node, d)).sum::<f64>() / nodes.len() as f64).collect();
-    let reach = |&node: &usize| (0..c).map(|d| (at(node, d) - centre[d]).powi(2)).sum::<f64>().sqrt();
-    let size = nodes.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
-    let planes: Vec<(usize, usize)> = (0..c).flat_map(|p| (p + 1..c).map(move |q| (p, q))).collect();
-    let value = |mode: usize, node: usize, d: usize| match mode.checked_sub(c) {
-        None => f64::from(u8::from(mode == d)),
-        Some(k) if planes[k].0 == d => -(at(node, planes[k].1) - centre[planes[k].1]) / size,
-        Some(k) if planes[k].1 == d => (at(node, planes[k].0) - centre[planes[k].0]) / size,
-        Some(_) => 0.0,
-    };
-    let count = c + planes.len();
+    let c = pieces[chain[0]].components();
+    let each = pieces[chain[0]].count();
+    let count = each * chain.len();
     let mut resisted = DMatrix::<f64>::zeros(count, count);
-    for &node in nodes {
-        for d in (0..c).filter(|d| held[c * node + d]) {
-            let row: Vec<f64> = (0..count).map(|mode| value(mode, node, d)).collect();
-            for i in 0..count {
-                for j in 0..count {
-                    resisted[(i, j)] += row[i] * row[j];
-                }
+    let mut resist = |row: &[(usize, f64)]| {
+        for (i, a) in row {
+            row.iter().for_each(|(j, b)| resisted[(*i, *j)] += a * b);
+        }
+    };
+    let entries = |place: usize, node: usize, d: usize, sign: f64| {
+        let piece = &pieces[chain[place]];
+        (0..each).map(move |mode| (each * place + mode, sign * piece.value(mode, node, d)))
+    };
+    for (place, &p) in chain.iter().enumerate() {
+        for &node in pieces[p].nodes {
+            for d in (0..c).filter(|d| held[c * node + d]) {
+                resist(&entries(place, node, d, 1.0).collect::<Vec<_>>());
+            }
+        }
+    }
+    for (&node, sharing) in of_node.iter().filter(|(_, sharing)| chain.contains(&sharing[0])) {
+        let places: Vec<usize> = sharing.iter().filter_map(|p| chain.binary_search(p).ok()).collect();
+        for pair in places.windows(2) {
+            for d in 0..c {
+                let row = entries(pair[0], node, d, 1.0).chain(entries(pair[1], node, d, -1.0));
+                resist(&row.collect::<Vec<_>>());
             }
         }
     }
     let eigen = SymmetricEigen::new(resisted);
+    let on_border = |a: &[f64], b: &[f64]| -> f64 {
+        let border = places.iter().enumerate().filter(|(_, place)| place.is_some());
+        border.map(|(dof, _)| a[dof] * b[dof]).sum()
+    };
     let mut motions: Vec<Vec<f64>> = Vec::new();
     for k in (0..count).filter(|&k| eigen.eigenvalues[k] <= FREE) {
         let mut motion = vec![0.0; held.len()];
-        for &node in nodes {
-            for d in 0..c {
-                let share = |mode: usize| eigen.eigenvectors[(mode, k)] * value(mode, node, d);
-                motion[c * node + d] = (0..count).map(share).sum();
+        for (place, &p) in chain.iter().enumerate() {
+            for &node in pieces[p].nodes {
+                for d in 0..c {
+                    let share = entries(place, node, d, 1.0);
+                    motion[c * node + d] = share.map(|(i, value)| eigen.eigenvectors[(i, k)] * value).sum();
+                }
             }
         }
-        let on_border = |a: &[f64], b: &[f64]| -> f64 {
-            let border = places.iter().enumerate().filter(|(_, place)| place.is_some());
-            border.map(|(dof, _)| a[dof] * b[dof]).sum()
-        };
         let before = on_border(&motion, &motion).sqrt();
         for other in &motions {
             let share = on_border(&motion, other);
@@ -86,51 +160,41 @@ fn of_piece(
     motions
 }
 
-/// Nodes of the connected pieces.
-fn pieces(pattern: &Pattern) -> Vec<Vec<usize>> {
-    let n = pattern.nodes();
-    let mut root: Vec<usize> = (0..n).collect();
-    fn find(root: &mut [usize], mut node: usize) -> usize {
-        while root[node] != node {
-            root[node] = root[root[node]];
-            node = root[node];
-        }
-        node
-    }
-    for node in 0..n {
-        for &other in pattern.neighbours(node) {
-            let (a, b) = (find(&mut root, node), find(&mut root, other as usize));
-            root[a.max(b)] = a.min(b);
-        }
-    }
-    let mut pieces: Vec<Vec<usize>> = Vec::new();
-    let mut number = vec![usize::MAX; n];
-    for node in 0..n {
-        let top = find(&mut root, node);
-        if number[top] == usize::MAX {
-            number[top] = pieces.len();
-            pieces.push(Vec::new());
-        }
-        pieces[number[top]].push(node);
-    }
-    pieces
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two triangles that hang together at a node, one of them held at another: both turn about it and the hinge.
+    #[test]
+    fn a_hinge_leaves_a_turn() {
+        let pieces = [vec![0, 1, 2], vec![2, 3, 4]];
+        let x = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 2.0, -1.0, 3.0];
+        let mut held = [false; 10];
+        (held[0], held[1]) = (true, true);
+        let places: Vec<Option<u32>> = (0..10).map(Some).collect();
+        let motions = free_motions(2, &pieces, &x, &held, &places);
+        assert_eq!((motions.len(), most(2, &pieces)), (2, 6));
+        for a in &motions {
+            assert!(a[0].abs() < 1e-12 && a[1].abs() < 1e-12, "the point stays");
+            for (p, q) in [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 2)] {
+                let stretch: f64 =
+                    (0..2).map(|d| (x[2 * q + d] - x[2 * p + d]) * (a[2 * q + d] - a[2 * p + d])).sum();
+                assert!(stretch.abs() < 1e-12, "no distance changes");
+            }
+        }
+    }
 
     /// Two separate triangles: one is held at a point, which leaves its rotation; the other floats.
     #[test]
     fn supports_leave_the_motions_that_they_do_not_resist() {
         let cells = [[0_usize, 1, 2], [3, 4, 5]];
-        let pattern = Pattern::new(2, 6, || cells.iter().map(|cell| (0, &cell[..])));
+        let pieces = cells.map(|cell| cell.to_vec());
         let x = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 3.0, 0.0, 4.0, 0.0, 3.0, 1.0];
         let mut held = [false; 12];
         (held[0], held[1]) = (true, true);
         let places: Vec<Option<u32>> = (0..12).map(|dof| (dof % 6 >= 2).then_some(dof as u32)).collect();
-        let motions = free_motions(&pattern, &x, &held, &places);
-        assert_eq!((motions.len(), most(&pattern)), (4, 6));
+        let motions = free_motions(2, &pieces, &x, &held, &places);
+        assert_eq!((motions.len(), most(2, &pieces)), (4, 6));
         let border = |a: &[f64], b: &[f64]| -> f64 {
             (0..12).filter(|&i| places[i].is_some()).map(|i| a[i] * b[i]).sum()
         };
