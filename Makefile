@@ -4,7 +4,8 @@
 #
 # Another scene file in the same folder, such as geo/cantilever/pointwise.json, is a variant: its results go to
 # results/<scene>_<file>/, and the graphs of the scene show both. Files named *study.json or *path.json are no scenes.
-# Options for the pictures of a scene, such as exact values, stand in geo/<scene>/draw.args, those for its history, if
+# Options for the pictures of a scene, such as exact values and how near tractions come to them, stand in
+# geo/<scene>/draw.args, those for its history, if
 # that is to be drawn, in geo/<scene>/history.args, and those for the check of its results, the error that its energies
 # may have and what is known of it, in geo/<scene>/check.args or, for a variant, geo/<scene>/<file>.check.args.
 

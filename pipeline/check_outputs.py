@@ -287,17 +287,25 @@ def expected(text):
 
 
 def value_of(name, rows, fields):
-    """COLUMN: its last value; max:COLUMN: its largest; COLUMN@max:OTHER: its value where another is largest; INTERFACE#STATUS: the
-    length along which law points have that status in the last fields. None if there is no such thing."""
+    """COLUMN: its last value; max:COLUMN: its largest; COLUMN@max:OTHER: its value where another is largest, by the parabola through
+    the rows there; INTERFACE#STATUS: the length along which law points have that status in the last fields. None if there is no such
+    thing."""
     interface, _, status = name.rpartition("#")
     if interface in fields:
         field = fields[interface]
         return field["length"][field["status"] == int(status)].sum()
-    column, _, largest = name.partition("@max:") if "@max:" in name else (name.removeprefix("max:"), "", "")
-    largest = largest or (column if name != column else "")
-    if not rows or column not in rows[0] or (largest and largest not in rows[0]):
+    column, at, other = name.partition("@max:")
+    column, largest = (column, other) if at else (name.removeprefix("max:"), name.removeprefix("max:"))
+    if not rows or not {column, largest} <= rows[0].keys():
         return None
-    return max(rows, key=lambda row: row[largest])[column] if largest else rows[-1][column]
+    if column == name:
+        return rows[-1][column]
+    peak = max(range(len(rows)), key=lambda row: rows[row][largest])
+    if at and 0 < peak < len(rows) - 1:
+        near = [[rows[row][key] for row in (peak - 1, peak, peak + 1)] for key in (column, largest)]
+        curve = np.polynomial.Polynomial.fit(*near, 2)
+        return curve.deriv().roots()[0]
+    return rows[peak][column]
 
 
 def check_expected(results, rows, fields, expectations, faults):
