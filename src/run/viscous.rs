@@ -12,6 +12,7 @@
 
 use super::course::Course;
 use super::engine::{Ahead, Failure, Viscous};
+use super::loading::Load;
 use super::parts::{Leg, Progress, Went};
 use super::state::Found;
 use crate::error::Result;
@@ -24,6 +25,8 @@ const WITHOUT_SOFTENING: f64 = 1e-7;
 const FIRST: f64 = 0.1;
 /// Longest viscous step, of a step.
 const LONGEST: f64 = 1.0 / 200.0;
+/// The longest steps leave the viscosity at most this part of what is carried: it falls where jumps are large.
+const SLIGHT: f64 = 1e-3;
 /// A step that changes more than this of what is carried is divided, unless c is above this part of the stiffness.
 const CHANGE: f64 = 0.3;
 const STIFF: f64 = 0.1;
@@ -40,6 +43,9 @@ const LEAST_CARRIED: f64 = 0.2;
 /// Out-of-balance force below which the laws alone are asked; where it is so small, at once.
 const NEAR: f64 = 1e-3;
 const VERY_NEAR: f64 = 1e-6;
+/// A viscosity that pulls at less than this part of the tolerance is none; what is left then is rounding, if it is so small.
+const GONE: f64 = 1e-3;
+const ROUNDED: f64 = 1e-8;
 /// Most steps of a rest.
 const STEPS: usize = 400;
 /// A force and tractions that change by less than this part are the same; where at least this part of the motion closes,
@@ -71,8 +77,11 @@ struct Motion {
     /// √(Σ w |Δr|²), and that of open points that close.
     moved: f64,
     closing: f64,
-    /// c times the first.
+    /// c times the first, and that of what is carried.
     pull: f64,
+    pulled: f64,
+    /// It is no larger than what is prescribed makes it.
+    driven: bool,
     /// Change of what is carried, and the bend of the tractions of joints that dilate, of it.
     change: f64,
     bend: f64,
@@ -110,7 +119,7 @@ impl Course<'_, '_> {
         width: f64,
         stretch: &mut Stretch,
     ) -> Result<std::result::Result<(), Unconverged>> {
-        let [eta, stiffness, softening] = self.scales();
+        let [mut eta, stiffness, softening] = self.scales();
         at.patience = if at.fresh { (2 * at.patience).min(64) } else { 4 };
         let (mut wait, mut hold) = (at.patience, 0);
         let most_bent = BEND * self.problem.solution.path_tolerance;
@@ -142,7 +151,10 @@ impl Course<'_, '_> {
                 c < STIFF * stiffness,
                 stretch,
             )? {
-                Ok(Motion { iterations, bend, .. }) => {
+                Ok(Motion { iterations, bend, pulled, driven, .. }) => {
+                    if step >= 0.99 * LONGEST && driven && pulled > SLIGHT {
+                        eta *= SLIGHT / pulled;
+                    }
                     last = step;
                     at.level = to;
                     (hold, wait) = (hold.max(1) - 1, wait.max(1) - 1);
@@ -204,13 +216,23 @@ impl Course<'_, '_> {
             return Ok(Err(too_far("the tractions change too much")));
         }
         let [moved, closing] = self.state.moved(self.problem, &found);
+        let driven = moved <= self.driven(leg, &load);
         let bend = found.bend / scale.max(f64::MIN_POSITIVE);
         self.take_viscous(found, load, stretch);
         let (pull, change) = (viscous.viscosity * moved, change / scale.max(f64::MIN_POSITIVE));
-        Ok(Ok(Motion { iterations, moved, closing, pull, change, bend }))
+        let pulled = pull / scale.max(f64::MIN_POSITIVE);
+        Ok(Ok(Motion { iterations, moved, closing, pull, pulled, driven, change, bend }))
     }
 
-    fn take_viscous(&mut self, found: Found, load: super::loading::Load, stretch: &mut Stretch) {
+    /// √(Σ w |Δr|²) of interfaces that move twice as far as what is prescribed.
+    fn driven(&self, leg: &Leg, load: &Load) -> f64 {
+        let ways = load.forces().prescribed.iter().zip(&self.state.snapshot.u).zip(&leg.stage.held);
+        let most = ways.filter(|(_, held)| **held).map(|((a, b), _)| (a - b).abs()).fold(0.0, f64::max);
+        let joints = self.problem.model.joints.iter().flat_map(|joint| &joint.coupling.points);
+        2.0 * most * joints.map(|point| point.weight).sum::<f64>().sqrt()
+    }
+
+    fn take_viscous(&mut self, found: Found, load: Load, stretch: &mut Stretch) {
         let level = load.level;
         for of in &found.joints {
             let states = &self.state.snapshot.states[of.joint];
@@ -270,7 +292,7 @@ impl Course<'_, '_> {
             }
             let strict = left < VERY_NEAR && !refused;
             match self.creep(leg, at, at.level, Viscous { viscosity: c, ahead, strict }, false, stretch)? {
-                Ok(Motion { iterations, moved, closing, pull, change, .. }) => {
+                Ok(Motion { iterations, moved, closing, pull, pulled, change, .. }) => {
                     // the same force on growing steps of what only slides or opens: nothing holds it
                     let same =
                         (pull / before - 1.0).abs() < SAME && change < SAME && closing < CLOSES * moved;
@@ -278,7 +300,10 @@ impl Course<'_, '_> {
                     (before, ahead) = (pull, 1.0);
                     let load = leg.start.at(at.level)?;
                     left = self.engine.imbalance(&self.state, &load);
-                    if left.max(change) <= self.problem.solution.tolerance {
+                    let tolerance = self.problem.solution.tolerance;
+                    // a viscosity that pulls at nothing leaves what rounding does: stiff joints that have slid far have few digits
+                    let rounded = pulled < GONE * tolerance && left.max(change) <= ROUNDED;
+                    if left.max(change) <= tolerance || rounded {
                         self.state.stands(left);
                         at.last = f64::INFINITY;
                         at.fresh = true;
