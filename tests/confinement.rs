@@ -170,26 +170,34 @@ fn friction_alone_is_left_after_a_long_slide() {
 fn a_joint_that_dilates_rises_alike_in_any_increments() {
     // stiff asperities: over a straight way of 0.05 mm the joint would press or open by more than it is pressed
     let law = Cracking { dilatancy_stress: 1.0, ..ROCK };
-    let rise = |increments: usize| {
-        let problem = bind(&scene(&law.text(), 0.5, 8e-3, increments, "", "load"), layers(12, 8)).unwrap();
+    let rise = |increments: usize, strategy: &str| {
+        let solution = format!(r#""strategy": "{strategy}""#);
+        let text = scene(&law.text(), 0.5, 8e-3, increments, &solution, "load");
+        let problem = bind(&text, layers(12, 8)).unwrap();
         let march = try_solve(&problem);
         let totals = march.end.unwrap();
         let last = &march.states[march.states.len() - 1];
         let shear = last.probes(&problem)[0];
         close(shear, 0.8785 * 0.5, 1e-4, 0.8785 * 0.5, "friction alone");
+        for state in &last.snapshot.states[0] {
+            // at every point, in the direction of the push
+            let [n, t] = [state.traction.x, state.traction.y];
+            close(t, -0.8785 * n, 1e-3, 0.8785 * 0.5, "friction alone at a point");
+        }
         assert!(totals.released > 0.0 && totals.energy_balance < 5e-3, "{increments}");
         let points = problem.model.joints[0].coupling.points.iter().zip(&last.snapshot.states[0]);
         let rise = points.map(|(point, state)| point.weight * state.jump_plastic.x).sum::<f64>();
         println!(
-            "{increments}: rise {rise:e}, dissipated {:e}, released {:e}, balance {:.1e}, {} parts",
+            "{strategy}, {increments}: rise {rise:e}, dissipated {:e}, released {:e}, balance {:.1e}, {} parts",
             last.dissipated, totals.released, totals.energy_balance, totals.parts
         );
         [rise, last.dissipated]
     };
-    let many = rise(160);
-    for increments in [5, 40] {
-        for (few, many) in rise(increments).into_iter().zip(many) {
-            close(few, many, 5e-3, many, &format!("{increments} and 160 increments"));
+    // five times the tolerance of the path
+    let many = rise(160, "condensed");
+    for (increments, strategy) in [(5, "condensed"), (40, "condensed"), (40, "blocks"), (40, "plain")] {
+        for (few, many) in rise(increments, strategy).into_iter().zip(many) {
+            close(few, many, 5e-3, many, &format!("{strategy}, {increments} and 160 increments"));
         }
     }
 }

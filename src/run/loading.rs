@@ -39,7 +39,7 @@ impl Load<'_> {
         self.forces.into_inner().unwrap_or_else(|| self.start.ramped(self.level))
     }
 
-    /// What is left of the released reactions at some dofs, summed up [force].
+    /// Sum of the released reactions that remain at some dofs [force].
     pub(super) fn left_of(&self, dofs: &[usize]) -> f64 {
         match self.start.stage.released.is_empty() {
             true => 0.0,
@@ -82,7 +82,7 @@ impl<'a> Start<'a> {
         Ok(Load { forces: OnceCell::from(self.forces(level, force, prescribed)), ..load })
     }
 
-    /// Where no formula is followed.
+    /// Forces of a step without formulas in the load factor.
     fn ramped(&self, level: f64) -> Forces {
         self.forces(level, self.stage.ramped(level), self.stage.moved(&self.u, level))
     }

@@ -39,7 +39,7 @@ pub struct Answers<M> {
     pub stiffness: Vec<Vec<f64>>,
     /// Forces q on the jump coefficients.
     pub forces: Vec<Vec<f64>>,
-    /// What the law points remember.
+    /// Memory of the law points.
     pub memory: Vec<Vec<M>>,
 }
 

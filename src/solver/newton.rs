@@ -169,7 +169,7 @@ impl Newton {
         ask(form, laws, x)
     }
 
-    /// What laws and form say at some unknowns, and again at the unknowns corrected by the factor at hand; with a change of the target also by as much of
+    /// Evaluations at some unknowns and at those corrected by the factor at hand; with a change of the target also by as much of
     /// it as keeps the correction across a way.
     pub fn corrected<L: Respond>(
         &self,
