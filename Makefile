@@ -110,6 +110,12 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
 
+# the program of another commit, such as the one before a redesign, is built beside this one
+identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `before` and with this one, compare bit by bit
+	rm -rf $(TARGET)/before && git worktree prune && git worktree add --force --detach $(TARGET)/before $(before)
+	cargo build --release --locked --manifest-path $(TARGET)/before/Cargo.toml --target-dir $(TARGET)/before/target
+	$(PYTHON) tests/identical.py $(TARGET)/before/target/release/midplane $(MIDPLANE) --forms "as it is" blocks plain
+
 confinement: | tools  ## the long tests: boxes at every confinement on fine meshes, and 200 random ones, some minutes
 	cargo test --release --locked --test confinement -- --ignored --nocapture
 
