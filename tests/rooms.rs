@@ -3,8 +3,9 @@
 use std::path::Path;
 
 /// The rooms from top to bottom: each may import those before it.
-const ROOMS: [&str; 14] = [
+const ROOMS: [&str; 15] = [
     "error",
+    "sparse",
     "shape",
     "law",
     "mesh",

@@ -1,7 +1,8 @@
 //! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
 
 use super::{Pattern, Symmetric, Tangent};
-use crate::coupling::{Coupling, Csr, LawPoint};
+use crate::coupling::{Coupling, LawPoint};
+use crate::sparse::Csr;
 
 /// Directions that differ by no more than this are one.
 const STRAIGHT: f64 = 8.0 * f64::EPSILON;

@@ -1,7 +1,7 @@
 //! The tangent of a joint on its jump coefficients, T = h Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p: pattern once, values often.
 
 use super::Joint;
-use crate::coupling::Csr;
+use crate::sparse::Csr;
 
 /// T with its places.
 #[derive(Debug, Clone)]

@@ -17,9 +17,7 @@
 //! side, and projects in L2; a matched interface is the classical zero-thickness element in both.
 
 mod angle;
-mod banded;
 mod chain;
-mod csr;
 mod grid;
 mod jump;
 mod link;
@@ -34,11 +32,11 @@ mod vector;
 mod view;
 
 pub use chain::{Chain, Run, Side};
-pub use csr::Csr;
 pub use midplane::{Midplane, Piece, Segment, Spot};
 pub use view::Share;
 
 use crate::error::Result;
+use crate::sparse::Csr;
 
 /// How the sides are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,8 +4,9 @@
 //! coefficients: M = I, N = I.
 
 use super::vector::dot;
-use super::{Coupling, Csr, LawPoint, Midplane, Points, jump};
+use super::{Coupling, LawPoint, Midplane, Points, jump};
 use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule};
+use crate::sparse::Csr;
 
 /// Two points where the jump is linear, three where it is quadratic.
 pub(super) fn rule(points: Points, quadratic: bool) -> LineRule {

@@ -8,10 +8,10 @@
 //! have quadratic edges and it is asked for, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
 
-use super::banded::Banded;
 use super::vector::dot;
-use super::{Coupling, Csr, LawPoint, Midplane, Points, grid, jump, pointwise};
+use super::{Coupling, LawPoint, Midplane, Points, grid, jump, pointwise};
 use crate::shape::{GAUSS_2, GAUSS_3, lagrange2, lagrange3};
+use crate::sparse::{Banded, Csr};
 
 /// Entries of G below this are dropped. Of the largest in their row.
 const NEGLIGIBLE: f64 = 1e-17;

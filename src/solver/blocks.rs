@@ -29,7 +29,7 @@ use super::motions::most;
 use super::refine::Factored;
 use super::{Condensation, Continuum, Form, NotPositiveDefinite, Solution};
 use crate::assembly::{Joint, Tangent};
-use crate::coupling::Csr;
+use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;

@@ -17,7 +17,7 @@ use super::measure::Functional;
 use super::refine::Factored;
 use super::{Base, Form, Measure, Ramp, Solution};
 use crate::assembly::{Joint, Tangent};
-use crate::coupling::Csr;
+use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;

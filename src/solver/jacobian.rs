@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::dense::Lu;
 use crate::assembly::Tangent;
-use crate::coupling::Csr;
+use crate::sparse::Csr;
 
 /// Of all rows at most this part is updated: the cubes of the sizes are then as one to two.
 const PART: f64 = 0.8;

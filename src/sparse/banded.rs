@@ -8,14 +8,14 @@ const DECAYED: f64 = 1e-18;
 
 /// L of M = L Lᵀ with `width` sub-diagonals: row i holds L[i, i − width ..= i].
 #[derive(Debug)]
-pub(super) struct Banded {
+pub struct Banded {
     width: usize,
     rows: Vec<f64>,
 }
 
 impl Banded {
     /// Factors M, given by rows like L: entry (i, j) at `i · (width + 1) + width + j − i`.
-    pub(super) fn factor(width: usize, mut rows: Vec<f64>) -> Banded {
+    pub fn factor(width: usize, mut rows: Vec<f64>) -> Banded {
         let stride = width + 1;
         let n = rows.len() / stride;
         for i in 0..n {
@@ -38,7 +38,7 @@ impl Banded {
 
     /// Solves M x = b in place. `b` is zero outside `first..last` on entry; returns the range outside which x has
     /// decayed to zero. What lies outside is left at zero.
-    pub(super) fn solve(&self, b: &mut [f64], first: usize, last: usize) -> std::ops::Range<usize> {
+    pub fn solve(&self, b: &mut [f64], first: usize, last: usize) -> std::ops::Range<usize> {
         let n = b.len();
         let mut largest = 0.0_f64;
         let mut end = n;
