@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use midplane::continuum::recover;
+use midplane::history::{Clock, march, processor};
 use midplane::problem::Problem;
-use midplane::run::{Clock, march, processor};
 use midplane::scene;
 use midplane::solver::{Linear, Plan, System};
 

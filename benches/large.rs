@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use midplane::assembly::{Pattern, Symmetric};
+use midplane::history::{Clock, march, memory};
 use midplane::problem::Problem;
-use midplane::run::{Clock, march, memory};
 use midplane::scene;
 use midplane::solver::{Cut, Parts, Plan, Symbolic, nested_dissection};
 

@@ -15,7 +15,7 @@
 //!
 //! The rooms, each of which may import only those above it (a test enforces the table):
 //! `error`, `sparse`, `shape`, `law`, `mesh`, `scene`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
-//! `run`, `study`, `cli`.
+//! `history`, `run`, `study`, `cli`.
 
 #![warn(missing_docs)]
 // no panic is reachable from input
@@ -27,6 +27,7 @@ pub mod cli;
 pub mod continuum;
 pub mod coupling;
 pub mod error;
+pub mod history;
 pub mod law;
 pub mod mesh;
 pub mod output;

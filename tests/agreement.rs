@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use midplane::history::{Clock, Place, State, Totals, march};
 use midplane::problem::stiffness_number;
-use midplane::run::{Clock, Options, Place, State, Totals, march, prepare};
+use midplane::run::{Options, prepare};
 
 /// Scene files of the gallery. Not among them are those on a path that chooses its own steps, those whose cracks choose
 /// between equal places by rounding, and the rough joint, which snaps (tests/confinement.rs has it in every form).

@@ -12,9 +12,9 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::*;
+use midplane::history::State;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 
 const E: f64 = 1e4;

@@ -5,9 +5,9 @@ mod common;
 
 use common::*;
 use midplane::error::Error;
+use midplane::history::State;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 
 const SLIP: u8 = 2;

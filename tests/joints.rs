@@ -12,9 +12,9 @@ use std::time::Instant;
 use chains::*;
 use common::*;
 use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme};
+use midplane::history::State;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 
 const PROJECTED: (Kind, Points) = (Kind::Projected, Points::Gauss);

@@ -4,7 +4,7 @@ mod common;
 
 use common::*;
 use midplane::error::Code;
-use midplane::run::{Clock, Place, State, Totals, march};
+use midplane::history::{Clock, Place, State, Totals, march};
 use midplane::shape::Shape;
 
 /// A joint between two unit squares, one above the other, with the given first lines and steps.

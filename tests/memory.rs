@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use midplane::run::{Clock, Means, march_within, memory};
+use midplane::history::{Clock, Means, march_within, memory};
 use midplane::shape::Shape;
 
 const SCENE: &str = r#"{ "plane": "strain",

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 /// The rooms from top to bottom: each may import those before it.
-const ROOMS: [&str; 15] = [
+const ROOMS: [&str; 16] = [
     "error",
     "sparse",
     "shape",
@@ -16,6 +16,7 @@ const ROOMS: [&str; 15] = [
     "solver",
     "problem",
     "output",
+    "history",
     "run",
     "study",
     "cli",

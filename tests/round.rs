@@ -23,8 +23,8 @@ use std::f64::consts::PI;
 
 use common::*;
 use midplane::error::Code;
+use midplane::history::State;
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 use rings::{Polar, Round, inclusion, rings};
 use round::{bent, l2_error, quarter, ring};

@@ -10,9 +10,9 @@
 mod common;
 
 use common::*;
+use midplane::history::State;
 use midplane::mesh::{Edge, Group, Mesh};
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 
 const P: f64 = 10.0;

@@ -8,8 +8,8 @@ mod strip;
 mod table;
 
 use common::*;
+use midplane::history::State;
 use midplane::problem::Problem;
-use midplane::run::State;
 use midplane::shape::Shape;
 use strip::{Manufactured, Strip};
 use table::{Table, list, rate};

@@ -7,8 +7,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::assembly::Joint;
 use crate::error::Warning;
+use crate::history::{Estimate, Totals, memory::gigabytes};
 use crate::output::Row;
-use crate::run::{Done, Estimate, Event, Totals, memory::gigabytes};
+use crate::run::{Done, Event};
 
 /// Prints events.
 pub(super) struct Show {

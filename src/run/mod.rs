@@ -2,44 +2,20 @@
 //!
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
-mod arclength;
-mod beyond;
-mod clock;
-mod course;
-mod energy;
-mod engine;
-mod estimate;
-mod failure;
 mod folder;
-mod laws;
-mod linear;
-mod loading;
-mod march;
-pub mod memory;
-mod newton;
-mod parts;
-mod path;
 pub mod point;
 mod prepare;
 mod shared;
-mod snap;
-mod state;
-mod strategy;
 mod summary;
-mod viscous;
 
-pub use beyond::Beyond;
-pub use clock::{Clock, processor};
-pub use march::{Means, Place, Snap, Totals, march, march_within};
 pub use prepare::{Prepared, mesh, prepare};
 pub use shared::Shared;
-pub use state::State;
-pub use strategy::Estimate;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{Error, Result, Warning};
+use crate::history::{Clock, Means, Place, State, Totals, march_within, memory};
 use crate::output::{Row, Writer};
 use crate::problem::Problem;
 use crate::scene::Fields;

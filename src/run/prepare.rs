@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::folder::Folder;
 use super::shared::{Shared, joints_key};
-use super::{Clock, Event, Listener, Options};
+use super::{Event, Listener, Options};
 use crate::error::Result;
+use crate::history::Clock;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::problem::{Problem, subdomain_meshes};
 use crate::scene::{self, Scene};

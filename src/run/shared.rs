@@ -6,9 +6,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde_json::Value;
 
-use super::{Options, memory};
+use super::Options;
 use crate::assembly::Joint;
 use crate::error::Result;
+use crate::history::memory;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::scene::Scene;
 use crate::solver::Shelf;

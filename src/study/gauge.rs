@@ -8,9 +8,9 @@ use indexmap::IndexMap;
 
 use super::file::{Field, Measure};
 use crate::assembly::Model;
+use crate::history::{State, Totals};
 use crate::output::Row;
 use crate::problem::{Problem, stiffness_number};
-use crate::run::{State, Totals};
 use crate::scene::{Place, Value};
 
 /// Takes the measures of one run.

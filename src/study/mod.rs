@@ -29,8 +29,9 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError, mpsc};
 
 use crate::error::{At, Error, Result};
+use crate::history::{memory, processor};
 use crate::output::write_json;
-use crate::run::{Shared, memory, processor};
+use crate::run::Shared;
 
 /// How far a study is.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 #![allow(dead_code)]
 
 use indexmap::IndexMap;
+use midplane::history::{Clock, Place, State, Totals, march};
 use midplane::mesh::{Cells, Edge, Group, Mesh};
 use midplane::problem::Problem;
-use midplane::run::{Clock, Place, State, Totals, march};
 use midplane::scene;
 use midplane::shape::Shape;
 

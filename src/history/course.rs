@@ -8,8 +8,7 @@ use super::march::{NO_BALANCE, Place, Totals, Visit};
 use super::parts::{Leg, Progress};
 use super::state::State;
 use super::strategy::active;
-use super::summary::{self, Resultant};
-use super::{Clock, beyond};
+use super::{Clock, Resultant, beyond, resultant};
 use crate::error::{Error, Result};
 use crate::problem::{Problem, Stage, is_held};
 use crate::scene::{Control, Fields};
@@ -219,7 +218,7 @@ impl<'a, 'b> Course<'a, 'b> {
             return 0.0;
         }
         let model = &self.problem.model;
-        let Resultant { rest, scale } = summary::resultant(model, &self.state.force, &self.state.reactions);
+        let Resultant { rest, scale } = resultant(model, &self.state.force, &self.state.reactions);
         let young = model.bodies.iter().map(|body| body.elasticity.young).fold(0.0, f64::max);
         let moved = self.state.snapshot.u.iter().map(|u| u.abs()).fold(0.0, f64::max);
         self.forces = self.forces.max(scale);
