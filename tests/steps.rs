@@ -241,7 +241,8 @@ fn increments_without_stored_fields_have_the_same_history() {
         assert_eq!(all.states.len(), last.states.len());
         assert!(last.states[30].snapshot.u.is_empty() && !all.states[30].snapshot.u.is_empty());
         assert!(last.end.unwrap().energy_balance < 5e-3);
-        let largest = |f: &dyn Fn(&midplane::history::State) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
+        let largest =
+            |f: &dyn Fn(&midplane::history::State) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
         let (work, force) = (largest(&|s| s.work.abs()), 2.0 * 0.4);
         for (i, (a, b)) in all.states.iter().zip(&last.states).enumerate() {
             close(b.work, a.work, 1e-10, work, &format!("{law:.20}: work {i}"));

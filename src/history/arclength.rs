@@ -2,7 +2,7 @@
 //! that dissipates.
 
 use super::course::Course;
-use super::engine::{Failure, Path};
+use super::equilibrium::{Failure, Path};
 use super::loading::Start;
 use super::parts::Judged;
 use super::path::{SMALLER, SMALLEST, Standing, Step, TRACTIONS, USUAL, WIDE};

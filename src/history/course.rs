@@ -1,13 +1,13 @@
 //! All steps with one engine: increments of the load factor in as many parts as they need (`parts`), or the path of
 //! equilibria (`path`).
 
-use super::engine::{Ahead, Engine, Failure};
+use super::equilibrium::strategy::active;
+use super::equilibrium::{Ahead, Engine, Failure};
 use super::failure::{no_equilibrium, singular, unusable};
 use super::loading::{Forces, Start};
 use super::march::{NO_BALANCE, Place, Totals, Visit};
 use super::parts::{Leg, Progress};
 use super::state::State;
-use super::strategy::active;
 use super::{Clock, Resultant, beyond, resultant};
 use crate::error::{Error, Result};
 use crate::problem::{Problem, Stage, is_held};

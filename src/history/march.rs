@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use super::beyond::Beyond;
 use super::course::Course;
-use super::engine::Engine;
-use super::linear::LinearEngine;
-use super::newton::NewtonEngine;
+use super::equilibrium::Engine;
+use super::equilibrium::linear::LinearEngine;
+use super::equilibrium::newton::NewtonEngine;
+use super::equilibrium::strategy::{self, Estimate, asked};
 use super::state::State;
-use super::strategy::{self, Estimate, asked};
 use super::{Clock, memory};
 use crate::error::{Code, Result, Warning};
 use crate::problem::{Problem, Stage};

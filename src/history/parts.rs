@@ -10,8 +10,8 @@
 //! A part that is kept is an equilibrium of the laws, and so is the end of every increment.
 
 use super::course::Course;
-use super::engine::{Ahead, Failure};
-use super::estimate::{Estimate, Way};
+use super::equilibrium::estimate::{Estimate, Way};
+use super::equilibrium::{Ahead, Failure};
 use super::failure::unusable;
 use super::loading::Start;
 use super::march::Snap;

@@ -6,7 +6,7 @@
 //! increments have, until the load level reaches its end for good.
 
 use super::course::Course;
-use super::engine::{Ahead, Failure, Path};
+use super::equilibrium::{Ahead, Failure, Path};
 use super::loading::Start;
 use super::march::Place;
 use super::parts::{Judged, Leg, Progress};

@@ -10,7 +10,7 @@
 //! dissipation or an energy is wrong.
 
 use super::energy::elastic_energy;
-use super::engine::Engine;
+use super::equilibrium::Engine;
 use super::loading::{Forces, Ledger, Load};
 use crate::assembly::{Joint, Model};
 use crate::continuum::{Stresses, recover};

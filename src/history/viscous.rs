@@ -11,7 +11,7 @@
 //! soon as c is above the softening. A stretch ends with an equilibrium of the laws alone.
 
 use super::course::Course;
-use super::engine::{Ahead, Failure, Viscous};
+use super::equilibrium::{Ahead, Failure, Viscous};
 use super::loading::Load;
 use super::parts::{Leg, Progress, Went};
 use super::state::Found;

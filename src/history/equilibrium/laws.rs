@@ -3,7 +3,7 @@
 
 use nalgebra::Vector2;
 
-use super::state::Answer;
+use crate::history::state::Answer;
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::Respond;
@@ -14,25 +14,30 @@ use crate::solver::Respond;
 /// t(r; state) + c (r − r₀)        with a viscosity c; friction lags then (`law::lagged`)
 /// ```
 #[derive(Clone, Copy)]
-pub(super) struct Laws<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) old: &'a [Vec<law::State>],
+pub(in crate::history) struct Laws<'a> {
+    pub(in crate::history) problem: &'a Problem,
+    pub(in crate::history) old: &'a [Vec<law::State>],
     /// c [stress / length], if there is one.
-    pub(super) viscosity: Option<f64>,
+    pub(in crate::history) viscosity: Option<f64>,
     /// Friction lags wherever it is steep, not only where its slope has no bound.
-    pub(super) lags: bool,
+    pub(in crate::history) lags: bool,
     /// Law points of every interface that are held elastic, if any are.
-    pub(super) held: Option<&'a [Vec<bool>]>,
+    pub(in crate::history) held: Option<&'a [Vec<bool>]>,
 }
 
 impl<'a> Laws<'a> {
     /// The laws alone.
-    pub(super) fn alone(problem: &'a Problem, old: &'a [Vec<law::State>]) -> Laws<'a> {
+    pub(in crate::history) fn alone(problem: &'a Problem, old: &'a [Vec<law::State>]) -> Laws<'a> {
         Laws { problem, old, viscosity: None, lags: false, held: None }
     }
 
     /// The answer of the law alone.
-    pub(super) fn own(&self, joint: usize, point: usize, jump: &[f64]) -> Result<law::Response, String> {
+    pub(in crate::history) fn own(
+        &self,
+        joint: usize,
+        point: usize,
+        jump: &[f64],
+    ) -> Result<law::Response, String> {
         let (law, _) = &self.problem.laws[joint];
         let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[joint][point]);
         let stepping = self.problem.stepping[joint];

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::memory;
 use crate::error::Result;
+use crate::history::memory;
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::scene::Strategy;
@@ -27,14 +27,14 @@ pub struct Estimate {
 }
 
 /// Joints that are not elastic.
-pub(super) fn active(problem: &Problem) -> Vec<usize> {
+pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
     let laws = problem.laws.iter().enumerate();
     laws.filter(|(_, (law, _))| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
 }
 
 /// Joints whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear
 /// and its displacements will do.
-pub(super) fn asked(problem: &Problem) -> Vec<usize> {
+pub(in crate::history) fn asked(problem: &Problem) -> Vec<usize> {
     let active = active(problem);
     match problem.solution.strategy {
         Strategy::Plain => return active,
@@ -47,7 +47,7 @@ pub(super) fn asked(problem: &Problem) -> Vec<usize> {
 
 /// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic joints need their jumps
 /// as unknowns.
-pub(super) fn choose(
+pub(in crate::history) fn choose(
     problem: &Problem,
     continuum: &Continuum,
     asked: &[usize],

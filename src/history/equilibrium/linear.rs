@@ -1,10 +1,10 @@
 //! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
 
-use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases};
 use super::estimate::{Estimate, Way};
-use super::loading::{Forces, Ledger, Load};
-use super::state::{Found, JointAnswer, State};
+use super::{Ahead, Engine, Failure, Make, Path, Viscous, bases};
 use crate::assembly::Joint;
+use crate::history::loading::{Forces, Ledger, Load};
+use crate::history::state::{Found, JointAnswer, State};
 use crate::problem::Problem;
 use crate::solver::{
     Base, Continuum, Factored, Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution, System,
@@ -12,7 +12,7 @@ use crate::solver::{
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
 /// load level two at most.
-pub(super) struct LinearEngine<'a, F> {
+pub(in crate::history) struct LinearEngine<'a, F> {
     joints: &'a [Joint],
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
@@ -115,7 +115,7 @@ const UNUSABLE: f64 = 1e-6;
 
 impl<'a> LinearEngine<'a, Linear<'a>> {
     /// With one factor of the whole.
-    pub(super) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
+    pub(in crate::history) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
         let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
         LinearEngine { joints: system.joints, make: Box::new(make), factored: None, ends: None }
     }
@@ -123,7 +123,7 @@ impl<'a> LinearEngine<'a, Linear<'a>> {
 
 impl<'a> LinearEngine<'a, Base<'a>> {
     /// With the bodies condensed on their joints.
-    pub(super) fn condensed(
+    pub(in crate::history) fn condensed(
         problem: &'a Problem,
         continuum: &'a Continuum,
         stiffness: &'a [Vec<f64>],

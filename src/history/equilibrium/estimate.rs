@@ -11,9 +11,9 @@
 //! bend stays.
 
 use super::laws::Laws;
-use super::loading::Load;
 use super::newton::NewtonEngine;
-use super::state::{Answer, Found, State};
+use crate::history::loading::Load;
+use crate::history::state::{Answer, Found, State};
 use crate::law;
 use crate::problem::Problem;
 use crate::solver::{Affine, Form, Iterate};
@@ -26,27 +26,27 @@ const ON: f64 = 1e-6;
 
 /// The error of a part of an increment.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Estimate {
+pub(in crate::history) struct Estimate {
     /// Change of the tractions at its end, √(Σ w |Δt|²) [stress × √length].
-    pub(super) traction: f64,
+    pub(in crate::history) traction: f64,
     /// Change of the energy dissipated in it [force × length].
-    pub(super) dissipation: f64,
+    pub(in crate::history) dissipation: f64,
     /// Error of the trapezoidal rule for the work of the interfaces [force × length].
-    pub(super) work: f64,
+    pub(in crate::history) work: f64,
     /// The work of the interfaces in the part, added up by magnitude [force × length].
-    pub(super) passed: f64,
+    pub(in crate::history) passed: f64,
     /// The same, added up by magnitude, over the work of the interfaces in the part.
-    pub(super) bend: f64,
+    pub(in crate::history) bend: f64,
     /// Intact points of softening laws have cracked, and some of them after others.
-    pub(super) cracked: bool,
-    pub(super) late: bool,
+    pub(in crate::history) cracked: bool,
+    pub(in crate::history) late: bool,
 }
 
 /// The way of a part: load in its middle, and those of the step where its load factor was found along a path.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Way<'a> {
-    pub(super) middle: &'a Load<'a>,
-    pub(super) step: Option<&'a [Load<'a>; 2]>,
+pub(in crate::history) struct Way<'a> {
+    pub(in crate::history) middle: &'a Load<'a>,
+    pub(in crate::history) step: Option<&'a [Load<'a>; 2]>,
 }
 
 /// True if every point of an interface answers elastically, or is open throughout.
@@ -88,7 +88,12 @@ fn late(problem: &Problem, old: &[Vec<law::State>], found: &Found) -> Option<Vec
 
 impl<F: Form> NewtonEngine<'_, F> {
     /// The estimate for what was found last under the load in the middle; none if the way there is straight.
-    pub(super) fn estimate_part(&mut self, state: &State, found: &Found, way: Way) -> Option<Estimate> {
+    pub(in crate::history) fn estimate_part(
+        &mut self,
+        state: &State,
+        found: &Found,
+        way: Way,
+    ) -> Option<Estimate> {
         let problem = self.problem;
         let old = &state.snapshot.states;
         let straight = found.joints.iter().all(|of| {
@@ -161,7 +166,12 @@ impl<F: Form> NewtonEngine<'_, F> {
 
     /// True if points that crack late in what was found last would do so if they were held: then small parts lead there too.
     /// They are held elastic, the equilibrium is corrected once, and some of them must be beyond its strength.
-    pub(super) fn late_points_crack(&mut self, state: &State, found: &Found, end: &Load) -> Option<bool> {
+    pub(in crate::history) fn late_points_crack(
+        &mut self,
+        state: &State,
+        found: &Found,
+        end: &Load,
+    ) -> Option<bool> {
         let problem = self.problem;
         let old = &state.snapshot.states;
         let Some(held) = late(problem, old, found) else { return Some(true) };
@@ -185,7 +195,13 @@ impl<F: Form> NewtonEngine<'_, F> {
 
     /// Fraction of the way to a load at which the first intact point reaches its surface, on the way on as before (`ahead`) or
     /// along the tangent.
-    pub(super) fn first_onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64> {
+    pub(in crate::history) fn first_onset(
+        &mut self,
+        state: &State,
+        load: &Load,
+        now: &Load,
+        ahead: f64,
+    ) -> Option<f64> {
         let (target, before) = (self.target(load).ok()?, self.target(now).ok()?);
         let problem = self.problem;
         let laws = Laws::alone(problem, &state.snapshot.states);
@@ -211,7 +227,7 @@ impl<F: Form> NewtonEngine<'_, F> {
     }
 
     /// The relative out-of-balance force of the last accepted state.
-    pub(super) fn out_of_balance(&self, state: &State, load: &Load) -> Option<f64> {
+    pub(in crate::history) fn out_of_balance(&self, state: &State, load: &Load) -> Option<f64> {
         let target = self.target(load).ok()?;
         let (_, form, _) = self.form.as_ref()?;
         let force = |&k: &usize| {
@@ -233,7 +249,7 @@ impl<F: Form> NewtonEngine<'_, F> {
     /// Keeps the viscous tractions of what was found, and returns the work that they do on the way there: that of all tractions
     /// along a straight way, less that of the laws' own by Simpson's rule. And the bend of the tractions of joints that
     /// dilate, √(Σ w |Δt|²).
-    pub(super) fn keep_viscous(&mut self, laws: &Laws, iterate: &Iterate<Answer>) -> [f64; 2] {
+    pub(in crate::history) fn keep_viscous(&mut self, laws: &Laws, iterate: &Iterate<Answer>) -> [f64; 2] {
         self.viscous[1].clear();
         if laws.viscosity.is_none() && self.viscous[0].is_empty() {
             return [0.0; 2];

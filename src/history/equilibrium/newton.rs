@@ -1,12 +1,12 @@
 //! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
 
-use super::engine::{Ahead, Engine, Failure, Make, Path, Viscous, bases, condensations};
 use super::estimate::{Estimate, Way};
 use super::laws::Laws;
-use super::loading::{Forces, Ledger, Load};
-use super::state::{Answer, Found, JointAnswer, State};
 use super::strategy::active;
+use super::{Ahead, Engine, Failure, Make, Path, Viscous, bases, condensations};
 use crate::assembly::{Pattern, Symmetric};
+use crate::history::loading::{Forces, Ledger, Load};
+use crate::history::state::{Answer, Found, JointAnswer, State};
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
@@ -23,21 +23,21 @@ const STIFF: f64 = 0.1;
 const DEFECTS: usize = 3;
 
 /// Newton's method on a form of the equilibrium that is made anew for every set of supports.
-pub(super) struct NewtonEngine<'a, F> {
-    pub(super) problem: &'a Problem,
+pub(in crate::history) struct NewtonEngine<'a, F> {
+    pub(in crate::history) problem: &'a Problem,
     /// All joints are elastic.
     linear: bool,
-    pub(super) settings: Settings,
+    pub(in crate::history) settings: Settings,
     make: Make<'a, F>,
-    pub(super) form: Option<(Vec<bool>, F, Newton)>,
+    pub(in crate::history) form: Option<(Vec<bool>, F, Newton)>,
     /// Unknowns of the form at the accepted increment before the last, at the last, and at what was found last.
     before: Vec<f64>,
-    pub(super) unknowns: Vec<f64>,
-    pub(super) found: Vec<f64>,
+    pub(in crate::history) unknowns: Vec<f64>,
+    pub(in crate::history) found: Vec<f64>,
     /// Forces of the joints at the last accepted increment, and at what was found last.
     forces: [Vec<Vec<f64>>; 2],
     /// Viscous tractions at the law points of every active joint, alike; none where nothing is viscous.
-    pub(super) viscous: [Vec<Vec<f64>>; 2],
+    pub(in crate::history) viscous: [Vec<Vec<f64>>; 2],
     /// Friction lags wherever it is steep in viscous steps, since steps without failed.
     lags: bool,
     /// Unknowns to which a search that failed returns.
@@ -77,7 +77,7 @@ impl<'a, F> NewtonEngine<'a, F> {
 
 impl<'a> NewtonEngine<'a, Dual<'a>> {
     /// On the jump coefficients of the joints in `asked`.
-    pub(super) fn condensed(
+    pub(in crate::history) fn condensed(
         problem: &'a Problem,
         continuum: &'a Continuum,
         asked: &'a [usize],
@@ -102,7 +102,7 @@ impl<'a> NewtonEngine<'a, Dual<'a>> {
 
 impl<'a> NewtonEngine<'a, Blocks<'a>> {
     /// On the jump coefficients of all joints and the rigid motions of floating bodies.
-    pub(super) fn blocks(
+    pub(in crate::history) fn blocks(
         problem: &'a Problem,
         continuum: &'a Continuum,
         stiffness: &'a [Vec<f64>],
@@ -120,7 +120,7 @@ impl<'a> NewtonEngine<'a, Blocks<'a>> {
 
 impl<'a> NewtonEngine<'a, Plain<'a>> {
     /// On all displacements.
-    pub(super) fn plain(
+    pub(in crate::history) fn plain(
         problem: &'a Problem,
         pattern: &'a Pattern,
         k: &'a Symmetric,
@@ -137,7 +137,7 @@ impl<'a> NewtonEngine<'a, Plain<'a>> {
 
 impl<F: Form> NewtonEngine<'_, F> {
     /// The last accepted unknowns, and a multiple of their last change beyond.
-    pub(super) fn onwards(&self, ahead: f64) -> Vec<f64> {
+    pub(in crate::history) fn onwards(&self, ahead: f64) -> Vec<f64> {
         if ahead == 0.0 {
             return self.unknowns.clone();
         }
@@ -202,7 +202,7 @@ impl<F: Form> NewtonEngine<'_, F> {
     }
 
     /// b of a load.
-    pub(super) fn target(&self, load: &Load) -> Result<Vec<f64>, Failure> {
+    pub(in crate::history) fn target(&self, load: &Load) -> Result<Vec<f64>, Failure> {
         let Some((_, form, _)) = &self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let target = match self.prepared {
             true => form.prepared(load.level),

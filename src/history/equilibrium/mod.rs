@@ -1,19 +1,25 @@
 //! What finds the equilibrium of one increment: a linear scene without iteration (`linear`), any other by Newton's method
 //! (`newton`).
 
+pub(super) mod estimate;
+mod laws;
+pub(super) mod linear;
+pub(super) mod newton;
+pub(super) mod strategy;
+
 use std::sync::Arc;
 
-use super::estimate::{Estimate, Way};
 use super::loading::Load;
 use super::state::{Found, State};
 use crate::problem::Problem;
 use crate::solver::{
     Base, Condensation, Continuum, Measure, NotPositiveDefinite, Ramp, Solution, Unconverged,
 };
+use estimate::{Estimate, Way};
 
 /// Why an increment has no equilibrium.
 #[derive(Debug)]
-pub(super) enum Failure {
+pub(in crate::history) enum Failure {
     /// A smaller increment may have one.
     Unconverged(Unconverged),
     /// Nothing will help: rounding or overflow leaves this backward error.
@@ -22,39 +28,39 @@ pub(super) enum Failure {
 
 /// Starting points of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Ahead {
+pub(in crate::history) struct Ahead {
     /// The last change of the unknowns is repeated this many times.
-    pub(super) changes: f64,
+    pub(in crate::history) changes: f64,
     /// Only as far as shows which points go on cracking: others may be about to.
-    pub(super) near: bool,
+    pub(in crate::history) near: bool,
 }
 
 /// A viscous step.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Viscous {
+pub(in crate::history) struct Viscous {
     /// c [stress / length].
-    pub(super) viscosity: f64,
+    pub(in crate::history) viscosity: f64,
     /// The last change of the unknowns is repeated this many times, as a second start.
-    pub(super) ahead: f64,
+    pub(in crate::history) ahead: f64,
     /// To the tolerance of an increment.
-    pub(super) strict: bool,
+    pub(in crate::history) strict: bool,
 }
 
 /// A step on the path of equilibria.
 #[derive(Debug)]
-pub(super) struct Path<'a> {
+pub(in crate::history) struct Path<'a> {
     /// The step's loads.
-    pub(super) ramp: &'a Ramp,
+    pub(in crate::history) ramp: &'a Ramp,
     /// Energy to dissipate; none: as far as the predicted change of the jumps.
-    pub(super) amount: Option<f64>,
+    pub(in crate::history) amount: Option<f64>,
     /// The last change of unknowns and load level is repeated this many times; zero: off the tangent.
-    pub(super) ahead: f64,
+    pub(in crate::history) ahead: f64,
     /// The last change of the load level; off the tangent the first one.
-    pub(super) last: f64,
+    pub(in crate::history) last: f64,
 }
 
 /// Finds equilibria under one set of supports after the other.
-pub(super) trait Engine {
+pub(in crate::history) trait Engine {
     /// Makes ready for a set of supports. True if something was factored.
     fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite>;
 
@@ -111,10 +117,11 @@ pub(super) trait Engine {
 }
 
 /// Factors for a set of supports; true if something was factored anew.
-pub(super) type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
+pub(in crate::history) type Make<'a, F> =
+    Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
 
 /// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
-pub(super) fn bases<'a>(
+pub(in crate::history) fn bases<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,
     stiffness: &'a [Vec<f64>],
@@ -127,7 +134,7 @@ pub(super) fn bases<'a>(
 }
 
 /// Makes the condensation of a set of supports, which serves all sets that differ on joints only.
-pub(super) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Condensation>> {
+pub(in crate::history) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Condensation>> {
     let mut condensed: Option<Arc<Condensation>> = None;
     Box::new(move |held: &[bool]| {
         let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
