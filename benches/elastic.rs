@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use midplane::continuum::recover;
-use midplane::history::{Clock, march, processor};
+use midplane::history::{Clock, Equations, History, Means, processor};
 use midplane::problem::Problem;
 use midplane::scene;
 use midplane::solver::{Linear, Plan, System};
@@ -65,14 +65,11 @@ fn measure(dofs: usize) -> Result<(), String> {
 
 /// As the program does it; returns the elastic energy.
 fn whole(problem: &Problem) -> Result<f64, String> {
-    let mut stored = 0.0;
     let mut clock = Clock::new("march");
-    march(problem, &mut clock, &mut |_| (), &mut |_, state, _, _| {
-        stored = state.stored;
-        Ok(())
-    })
-    .map_err(|e| e.to_string())?;
-    Ok(stored)
+    let equations = Equations::new(problem, Means::default(), &mut clock).map_err(|e| e.to_string())?;
+    let mut history = History::new(problem, &equations, clock);
+    while history.next().map_err(|e| e.to_string())?.is_some() {}
+    Ok(history.state().stored)
 }
 
 /// With nothing but elastic bodies and springs.
@@ -86,7 +83,7 @@ fn bare(problem: &Problem) -> Result<f64, String> {
         System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
     let plan = Plan::analyse(&pattern, &model.coordinates()).map_err(|e| format!("{e:?}"))?;
     let stage = &problem.stages[0];
-    let linear = Linear::new(&system, &plan, &stage.held).map_err(|e| format!("{e:?}"))?;
+    let linear = Linear::new(system, &plan, &stage.held).map_err(|e| format!("{e:?}"))?;
     let force = stage.force(model, 1.0).map_err(|e| e.to_string())?;
     let u = linear.solve(&force, &vec![0.0; model.dofs()]).u;
     let mut stored = 0.0;

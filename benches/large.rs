@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use midplane::assembly::{Pattern, Symmetric};
-use midplane::history::{Clock, march, memory};
+use midplane::history::{Clock, Equations, History, Means, memory};
 use midplane::problem::Problem;
 use midplane::scene;
 use midplane::solver::{Cut, Parts, Plan, Symbolic, nested_dissection};
@@ -57,8 +57,10 @@ fn measure(dofs: usize) -> Result<(), String> {
     drop((pattern, matrix));
 
     let mut clock = Clock::new("march");
-    march(&problem, &mut clock, &mut |_| (), &mut |_, _, _, _| Ok(())).map_err(|e| e.to_string())?;
-    for (stage, seconds) in clock.stages() {
+    let equations = Equations::new(&problem, Means::default(), &mut clock).map_err(|e| e.to_string())?;
+    let mut history = History::new(&problem, &equations, clock);
+    while history.next().map_err(|e| e.to_string())?.is_some() {}
+    for (stage, seconds) in history.clock().stages() {
         println!("    march: {stage:<20} {seconds:8.3} s");
     }
     if let Some(peak) = memory::peak() {
@@ -68,7 +70,7 @@ fn measure(dofs: usize) -> Result<(), String> {
 }
 
 fn factor(plan: &Plan, pattern: &Pattern, matrix: &Symmetric) -> Result<(), String> {
-    println!("    {:<27} {:8.2} million entries", plan.strategy(), plan.entries() as f64 / 1e6);
+    println!("    {:<27} {:8.2} million entries", plan.method().name(), plan.entries() as f64 / 1e6);
     let factor = timed("numeric", || plan.factor(pattern, matrix)).map_err(|e| format!("{e:?}"))?;
     let mut x = vec![1.0; pattern.size()];
     timed("solve", || factor.solve(std::slice::from_mut(&mut x)));

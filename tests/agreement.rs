@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use midplane::history::{Clock, Place, State, Totals, march};
+use midplane::history::{Clock, Equations, History, Means, State};
 use midplane::problem::stiffness_number;
 use midplane::run::{Options, prepare};
 
@@ -38,13 +38,14 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<State>, f64) {
     };
     let problem = prepare(&options, &mut |_| ()).unwrap().problem;
     let mut states = Vec::new();
-    let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
-        if place.number > 0 {
-            states.push(state.clone());
+    let mut clock = Clock::new("test");
+    let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
+    let mut history = History::new(&problem, &equations, clock);
+    while let Some(increment) = history.next().unwrap() {
+        if increment.number > 0 {
+            states.push(history.state().clone());
         }
-        Ok(())
-    };
-    march(&problem, &mut Clock::new("test"), &mut |_| (), &mut visit).unwrap();
+    }
     let joints = problem.model.joints.iter().zip(&problem.laws);
     let numbers = joints.map(|(joint, (law, _))| stiffness_number(&problem.model, joint, law));
     (states, numbers.fold(0.0, f64::max))

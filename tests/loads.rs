@@ -4,7 +4,6 @@ mod common;
 
 use common::*;
 use midplane::error::Code;
-use midplane::history::{Clock, Place, State, Totals, march};
 use midplane::shape::Shape;
 
 /// A joint between two unit squares, one above the other, with the given first lines and steps.
@@ -221,11 +220,7 @@ fn overflow_is_no_equilibrium() {
         );
         let problem = two_squares(HEAD, SPRINGS, &steps, "").unwrap();
         let mut kept = 0;
-        let mut visit = |place: Place, _: &State, _: &Totals, _: &mut Clock| {
-            kept = place.increment;
-            Ok(())
-        };
-        let error = march(&problem, &mut Clock::new("test"), &mut |_| (), &mut visit).unwrap_err();
+        let error = each_increment(&problem, |increment, _| kept = increment.increment).unwrap_err();
         assert_eq!((kept, error.exit_code()), (1, 3));
         let message = error.to_string();
         assert!(

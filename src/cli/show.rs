@@ -3,18 +3,20 @@
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::assembly::Joint;
 use crate::error::Warning;
-use crate::history::{Estimate, Totals, memory::gigabytes};
+use crate::history::{Operations, StageNow, Totals, memory::gigabytes};
 use crate::output::Row;
 use crate::run::{Done, Event};
+use crate::solver::Method;
 
 /// Prints events.
 pub(super) struct Show {
     quiet: bool,
     bar: Option<ProgressBar>,
+    stage: Option<StageNow>,
     /// Counts up to the last increment shown.
     totals: Option<Totals>,
 }
@@ -24,12 +26,21 @@ impl Show {
         let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
             let bar = ProgressBar::new_spinner();
             bar.enable_steady_tick(Duration::from_millis(100));
-            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
-                bar.set_style(style);
-            }
             bar
         });
-        Show { quiet, bar, totals: None }
+        Show { quiet, bar, stage: None, totals: None }
+    }
+
+    /// Shows the bar by a template, in which `{stage}` is the stage of work under way.
+    fn style(&self, template: &str) {
+        if let (Some(bar), Some(stage), Ok(style)) =
+            (&self.bar, self.stage.clone(), ProgressStyle::with_template(template))
+        {
+            let name = move |_: &ProgressState, text: &mut dyn std::fmt::Write| {
+                let _ = text.write_str(stage.name()); // a bar that cannot be drawn is no loss
+            };
+            bar.set_style(style.with_key("stage", name));
+        }
     }
 
     /// One line, above the bar if there is one.
@@ -54,10 +65,9 @@ impl Show {
 
     pub(super) fn event(&mut self, event: Event) {
         match event {
-            Event::Stage(stage) => {
-                if let Some(bar) = &self.bar {
-                    bar.set_message(stage);
-                }
+            Event::Began(stage) => {
+                self.stage = Some(stage.clone());
+                self.style("{spinner} {stage} {elapsed}");
             }
             Event::Meshed { name, path, reused } => {
                 let how = if reused { "reused" } else { "meshed" };
@@ -81,16 +91,15 @@ impl Show {
 
     /// How the equations are solved, and the head of the table of increments.
     fn begin(&self, total: usize, totals: &Totals) {
-        let how = match totals.strategy {
-            "joined" => "linear, one factor",
-            "in parts" => "linear, factors of two parts side by side",
-            "condensed" => "Newton's method on the jumps of the joints",
-            "blocks" => "Newton's method on the jumps of the joints, sparse by blocks",
-            "plain" => "Newton's method on all displacements",
-            other => other,
+        let how = match totals.method {
+            Method::Joined => "linear, one factor",
+            Method::InParts => "linear, factors of two parts side by side",
+            Method::Condensed => "Newton's method on the jumps of the joints",
+            Method::Blocks => "Newton's method on the jumps of the joints, sparse by blocks",
+            Method::Plain => "Newton's method on all displacements",
         };
-        self.line(&format!("{:<8} {:<12} {how}", "solving", totals.strategy));
-        if let Some(Estimate { condensed, blocks, plain }) = totals.estimate {
+        self.line(&format!("{:<8} {:<12} {how}", "solving", totals.method.name()));
+        if let Some(Operations { condensed, blocks, plain }) = totals.operations {
             let text = format!("condensed {condensed:.1e}, blocks {blocks:.1e}, plain {plain:.1e} or more");
             self.line(&format!("{:<8} {:<12} {text}", "", "operations"));
         }
@@ -98,11 +107,9 @@ impl Show {
             "{:<20} {:>9} {:>8} {:>6} {:>10} {:>10}",
             "step", "incr", "load", "iter", "residual", "energy"
         ));
-        if let Some(bar) = &self.bar
-            && let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {eta}")
-        {
+        if let Some(bar) = &self.bar {
             bar.set_length(total as u64);
-            bar.set_style(style);
+            self.style("{bar:30} {pos}/{len} {stage} {eta}");
         }
     }
 

@@ -4,6 +4,7 @@
 //! on T3, linear on T6, bilinear on Q4, Q8, Q9), evaluated at the nodes, and averaged there with the areas of the cells.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::Elasticity;
 use super::element::{cell_coordinates, gradients};
@@ -11,7 +12,7 @@ use crate::mesh::Mesh;
 use crate::shape::Shape;
 
 /// Stresses of one body; components xx, yy, zz, xy.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stresses {
     /// Mean over every cell.
     pub cells: Vec<[f64; 4]>,

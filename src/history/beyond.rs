@@ -1,12 +1,12 @@
 //! Jumps beyond the range in which the pairs of the undeformed sides hold.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::state::State;
 use crate::problem::Problem;
 
 /// A jump, of a point that carries something, by more than an edge that faces it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Beyond {
     /// Name of the interface.
     pub interface: String,

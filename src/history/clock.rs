@@ -1,5 +1,6 @@
 //! Where the time goes.
 
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Seconds by stage, in the order the stages first began.
@@ -7,26 +8,49 @@ use std::time::Instant;
 pub struct Clock {
     start: Instant,
     since: Instant,
-    current: &'static str,
+    current: StageNow,
     stages: Vec<(&'static str, f64)>,
+}
+
+/// The stage under way, for whoever shows it beside the run.
+#[derive(Debug, Clone)]
+pub struct StageNow(Arc<Mutex<&'static str>>);
+
+impl StageNow {
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn begin(&self, stage: &'static str) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+    }
 }
 
 impl Clock {
     /// Starts with a stage.
     pub fn new(stage: &'static str) -> Clock {
         let now = Instant::now();
-        Clock { start: now, since: now, current: stage, stages: Vec::new() }
+        let current = StageNow(Arc::new(Mutex::new(stage)));
+        Clock { start: now, since: now, current, stages: Vec::new() }
     }
 
     /// Ends the current stage and begins another.
     pub fn begin(&mut self, stage: &'static str) {
         let now = Instant::now();
         let seconds = (now - self.since).as_secs_f64();
-        match self.stages.iter_mut().find(|(name, _)| *name == self.current) {
+        let ended = self.current.name();
+        match self.stages.iter_mut().find(|(name, _)| *name == ended) {
             Some((_, sum)) => *sum += seconds,
-            None => self.stages.push((self.current, seconds)),
+            None => self.stages.push((ended, seconds)),
         }
-        (self.since, self.current) = (now, stage);
+        self.since = now;
+        self.current.begin(stage);
+    }
+
+    /// The stage under way.
+    pub fn now(&self) -> &StageNow {
+        &self.current
     }
 
     /// Seconds of the stages that have ended.

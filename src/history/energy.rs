@@ -1,91 +1,95 @@
-//! What an increment does to the energies of the state before it, and what the joints carry.
+//! Energies of an increment, dissipation and external work, and what the interfaces carry.
 
+use super::converged::{Converged, InterfaceResponse};
 use super::loading::{Forces, Load};
-use super::state::{Found, JointAnswer, State};
 use crate::assembly::{Joint, Model};
 use crate::coupling::LawPoint;
 use crate::law::{self, Law};
+use crate::output::Snapshot;
 use crate::problem::Problem;
 use crate::solver::Solution;
 
-impl State {
-    /// Energy that an increment dissipates [force × length].
-    pub(super) fn dissipation(problem: &Problem, found: &Found) -> f64 {
-        let of = |answer: &JointAnswer| {
-            let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
-            points.map(|(point, memory)| point.weight * memory.dissipation).sum::<f64>()
-        };
-        problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
-    }
+/// Energy that an increment dissipates [force × length].
+pub(super) fn dissipation(problem: &Problem, found: &Converged) -> f64 {
+    let of = |answer: &InterfaceResponse| {
+        let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+        points.map(|(point, memory)| point.weight * memory.dissipation).sum::<f64>()
+    };
+    problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+}
 
-    /// What the joints carry, as the mean square of their tractions times length [stress² × length].
-    pub(super) fn carried(&self, problem: &Problem) -> f64 {
-        let joints = problem.model.joints.iter().zip(&self.snapshot.states);
-        let of = |(joint, states): (&Joint, &Vec<law::State>)| {
-            let points = joint.coupling.points.iter().zip(states);
-            points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
-        };
-        joints.map(of).sum()
-    }
+/// Mean square of their tractions times length [stress² × length].
+pub(super) fn carried(problem: &Problem, snapshot: &Snapshot) -> f64 {
+    let joints = problem.model.joints.iter().zip(&snapshot.states);
+    let of = |(joint, states): (&Joint, &Vec<law::State>)| {
+        let points = joint.coupling.points.iter().zip(states);
+        points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
+    };
+    joints.map(of).sum()
+}
 
-    /// Mean square of the tractions found, times length [stress² × length].
-    pub(super) fn carried_after(&self, problem: &Problem, found: &Found) -> f64 {
-        let of = |answer: &JointAnswer| {
-            let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
-            points.map(|(point, memory)| point.weight * memory.state.traction.norm_squared()).sum::<f64>()
-        };
-        found.joints.iter().map(of).sum()
-    }
+/// Mean square of the tractions found, times length [stress² × length].
+pub(super) fn carried_after(problem: &Problem, found: &Converged) -> f64 {
+    let of = |answer: &InterfaceResponse| {
+        let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+        points.map(|(point, memory)| point.weight * memory.state.traction.norm_squared()).sum::<f64>()
+    };
+    found.joints.iter().map(of).sum()
+}
 
-    /// Change of the tractions that an increment brings, measured alike.
-    pub(super) fn change(&self, problem: &Problem, found: &Found) -> f64 {
-        let of = |answer: &JointAnswer| {
-            let points = problem.model.joints[answer.joint].coupling.points.iter();
-            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
-            let change = |old: &law::State, new: &law::State| (new.traction - old.traction).norm_squared();
-            points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
-        };
-        found.joints.iter().map(of).sum()
-    }
+/// Change of the tractions that an increment brings, measured alike.
+pub(super) fn change(problem: &Problem, snapshot: &Snapshot, found: &Converged) -> f64 {
+    let of = |answer: &InterfaceResponse| {
+        let points = problem.model.joints[answer.joint].coupling.points.iter();
+        let states = snapshot.states[answer.joint].iter().zip(&answer.memory);
+        let change = |old: &law::State, new: &law::State| (new.traction - old.traction).norm_squared();
+        points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
+    };
+    found.joints.iter().map(of).sum()
+}
 
-    /// √(Σ w |Δr|²) of what was found, and that of open points that close.
-    pub(super) fn moved(&self, problem: &Problem, found: &Found) -> [f64; 2] {
-        let mut squares = [0.0; 2];
-        for answer in &found.joints {
-            let points = problem.model.joints[answer.joint].coupling.points.iter();
-            let states = self.snapshot.states[answer.joint].iter().zip(&answer.memory);
-            for (point, (old, new)) in points.zip(states) {
-                let moved = new.state.jump - old.jump;
-                squares[0] += point.weight * moved.norm_squared();
-                if old.traction.x == 0.0 && moved.x < 0.0 {
-                    squares[1] += point.weight * moved.x * moved.x;
-                }
+/// √(Σ w |Δr|²) of what was found, and that of open points that close.
+pub(super) fn moved(problem: &Problem, snapshot: &Snapshot, found: &Converged) -> [f64; 2] {
+    let mut squares = [0.0; 2];
+    for answer in &found.joints {
+        let points = problem.model.joints[answer.joint].coupling.points.iter();
+        let states = snapshot.states[answer.joint].iter().zip(&answer.memory);
+        for (point, (old, new)) in points.zip(states) {
+            let moved = new.state.jump - old.jump;
+            squares[0] += point.weight * moved.norm_squared();
+            if old.traction.x == 0.0 && moved.x < 0.0 {
+                squares[1] += point.weight * moved.x * moved.x;
             }
         }
-        squares.map(f64::sqrt)
     }
+    squares.map(f64::sqrt)
+}
 
-    /// ½ (f₀ + f₁) · Δu of loads and reactions.
-    pub(super) fn work_to(&self, solution: &Solution, load: &Load) -> f64 {
-        let Forces { force, released, .. } = load.forces();
-        let at = |i: usize| {
-            let before = self.force[i] + self.reactions[i];
-            let now = force[i] + released[i] + solution.reactions[i];
-            0.5 * (before + now) * (solution.u[i] - self.snapshot.u[i])
-        };
-        (0..solution.u.len()).map(at).sum()
-    }
+/// ½ (f₀ + f₁) · Δu of loads and reactions.
+pub(super) fn work_to(
+    snapshot: &Snapshot,
+    [before, reactions]: [&[f64]; 2],
+    solution: &Solution,
+    load: &Load,
+) -> f64 {
+    let Forces { force, released, .. } = load.forces();
+    let at = |i: usize| {
+        let before = before[i] + reactions[i];
+        let now = force[i] + released[i] + solution.reactions[i];
+        0.5 * (before + now) * (solution.u[i] - snapshot.u[i])
+    };
+    (0..solution.u.len()).map(at).sum()
+}
 
-    /// Σ q · a of the joints that are not elastic.
-    pub(super) fn across(&self, model: &Model) -> f64 {
-        let joints = model.joints.iter().zip(&self.snapshot.jumps).zip(&self.snapshot.states);
-        let points =
-            joints.flat_map(|((joint, jumps), states)| joint.coupling.points.iter().zip(jumps).zip(states));
-        let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
-            model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
-        };
-        points.map(at).sum()
-    }
+/// Σ q · a of the joints that are not elastic.
+pub(super) fn across(model: &Model, snapshot: &Snapshot) -> f64 {
+    let joints = model.joints.iter().zip(&snapshot.jumps).zip(&snapshot.states);
+    let points =
+        joints.flat_map(|((joint, jumps), states)| joint.coupling.points.iter().zip(jumps).zip(states));
+    let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
+        model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
+    };
+    points.map(at).sum()
 }
 
 /// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].

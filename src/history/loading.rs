@@ -2,6 +2,8 @@
 
 use std::cell::OnceCell;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Result;
 use crate::problem::{BoundProbe, Problem, Stage};
 use crate::solver::{Measure, Ramp};
@@ -53,21 +55,26 @@ impl Load<'_> {
 pub(super) struct Start<'a> {
     problem: &'a Problem,
     stage: &'a Stage,
-    initial: &'a [f64],
+    initial: Vec<f64>,
     u: Vec<f64>,
     reactions: Vec<f64>,
 }
 
 impl<'a> Start<'a> {
+    /// Displacements and reactions at the end of the step before.
+    pub(super) fn before(&self) -> [&[f64]; 2] {
+        [&self.u, &self.reactions]
+    }
+
     /// Of displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
     pub(super) fn new(
         problem: &'a Problem,
         stage: &'a Stage,
-        initial: &'a [f64],
-        u: &[f64],
-        reactions: &[f64],
+        initial: Vec<f64>,
+        u: Vec<f64>,
+        reactions: Vec<f64>,
     ) -> Start<'a> {
-        Start { problem, stage, initial, u: u.to_vec(), reactions: reactions.to_vec() }
+        Start { problem, stage, initial, u, reactions }
     }
 
     /// Loads at a level.
@@ -91,7 +98,7 @@ impl<'a> Start<'a> {
         let mut released = vec![0.0; self.u.len()];
         let left = |dof: usize| (1.0 - level) * self.reactions[dof];
         self.stage.released.iter().for_each(|&dof| released[dof] = left(dof));
-        let loaded = force.iter().zip(&released).zip(self.initial).map(|((f, r), f0)| f + r - f0).collect();
+        let loaded = force.iter().zip(&released).zip(&self.initial).map(|((f, r), f0)| f + r - f0).collect();
         Forces { force, released, loaded, prescribed }
     }
 
@@ -116,7 +123,7 @@ impl<'a> Start<'a> {
         let [f0, f1] = [0, 1].map(|end| dot(&ramp.force[end], &self.u));
         let [r0, r1] = [0, 1].map(|end| dot(&ramp.prescribed[end], &reactions));
         let (loads, supports) = ([f0, f1 - f0], [r0, r1 - r0]);
-        Ledger { level: 0.0, loads, supports, initial: dot(self.initial, &self.u), columns: Vec::new() }
+        Ledger { level: 0.0, loads, supports, initial: dot(&self.initial, &self.u), columns: Vec::new() }
     }
 
     /// What work, energy and history need of the displacements when these are not recovered: see `Ledger`.
@@ -146,7 +153,7 @@ impl<'a> Start<'a> {
 }
 
 /// The measures of one increment, in the order of `Start::measures`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Ledger {
     /// Load level.
     pub(super) level: f64,

@@ -1,25 +1,265 @@
-//! The load history: increments, Newton's policy, path following, viscous relaxation, energies.
+//! The load history, increment by increment.
+//!
+//! ```text
+//! while let Some(increment) = history.next()? { write; tell; keep a checkpoint }
+//!
+//! step      load factor in equal increments (`load`), or the path of equilibria (`path`)
+//! increment as many parts as its accuracy asks for (`parts`, `judge`), else a viscous stretch (`viscous`, `rest`)
+//! part      an equilibrium (`equilibrium`), accepted into the state (`state`)
+//! ```
 
+mod account;
+mod analysis;
 mod arclength;
 mod balance;
 mod beyond;
 mod clock;
-mod course;
+mod converged;
+mod dissipate;
 mod energy;
 mod equilibrium;
 mod failure;
+mod increment;
+mod judge;
+mod load;
 mod loading;
-mod march;
 pub mod memory;
+mod outcome;
 mod parts;
 mod path;
+mod progress;
+mod rest;
+mod settle;
 mod snap;
 mod state;
+mod stretch;
+mod totals;
+mod trial;
 mod viscous;
 
 pub use balance::{Resultant, resultant};
 pub use beyond::Beyond;
-pub use clock::{Clock, processor};
-pub use equilibrium::strategy::Estimate;
-pub use march::{Means, Place, Snap, Totals, march, march_within};
+pub use clock::{Clock, StageNow, processor};
+pub use equilibrium::strategy::Operations;
+pub use equilibrium::{Equations, Means};
+pub use increment::Increment;
 pub use state::State;
+pub use totals::{Snap, Totals};
+
+use serde::{Deserialize, Serialize};
+
+use account::account;
+use analysis::{Analysis, complete};
+use equilibrium::Search;
+use equilibrium::strategy::active;
+use failure::{no_equilibrium, singular};
+use load::LoadStep;
+use loading::Start;
+use path::PathStep;
+use settle::{initial_force, settle};
+
+use crate::error::Result;
+use crate::problem::{Problem, Stage};
+use crate::scene::Control;
+use crate::solver::{Ramp, Unconverged};
+
+/// The history of a problem.
+pub struct History<'a> {
+    analysis: Analysis<'a>,
+    position: Position,
+    /// Loads of the step under way.
+    loads: Option<(Start<'a>, Option<Ramp>)>,
+}
+
+/// Where a history stands.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Position {
+    /// Number of the step.
+    step: usize,
+    phase: Phase,
+}
+
+/// Phase of a step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+enum Phase {
+    /// Its supports are still to be factored.
+    Supports,
+    /// Its loads are still to be prepared.
+    Loads,
+    /// Increments of the load factor.
+    Load(LoadStep),
+    /// Increments along the path.
+    Path(PathStep),
+    /// No equilibrium beyond an increment, at a load factor; the last one has been given once more, or not.
+    Lost { number: usize, load_factor: f64, why: Unconverged, shown: bool },
+}
+
+/// The state of a history, from which it can go on.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Checkpoint {
+    position: Position,
+    state: State,
+    totals: Totals,
+    search: Search,
+    /// Displacements and reactions at the start of the step under way.
+    before: Option<[Vec<f64>; 2]>,
+}
+
+impl<'a> History<'a> {
+    /// Before the first step.
+    pub fn new(problem: &'a Problem, equations: &'a Equations, clock: Clock) -> History<'a> {
+        let totals = Totals {
+            method: equations.method,
+            operations: equations.operations,
+            factor_entries: equations.factor_entries,
+            ..Totals::default()
+        };
+        let (engine, state) = (equations.engine(), State::unloaded(problem));
+        let position = Position { step: 0, phase: Phase::Supports };
+        History { analysis: Analysis { problem, engine, state, totals, clock }, position, loads: None }
+    }
+
+    /// From a checkpoint of a history of the same problem.
+    pub fn resume(
+        problem: &'a Problem,
+        equations: &'a Equations,
+        clock: Clock,
+        checkpoint: Checkpoint,
+    ) -> Result<History<'a>> {
+        let Checkpoint { position, state, totals, search, before } = checkpoint;
+        let engine = equations.engine();
+        let mut analysis = Analysis { problem, engine, state, totals, clock };
+        let mut loads = None;
+        if let (Some(stage), false) =
+            (problem.stages.get(position.step), matches!(position.phase, Phase::Supports))
+        {
+            analysis.clock.begin("factor");
+            let kept = analysis.totals.increments;
+            analysis.engine.support(&stage.held).map_err(|_| singular(stage, kept))?;
+            if let Some([u, reactions]) = before {
+                let start = Start::new(problem, stage, initial_force(problem), u, reactions);
+                let ramp = start.ramp()?;
+                load::prepare(
+                    &mut analysis,
+                    stage,
+                    &start,
+                    ramp.as_ref(),
+                    matches!(position.phase, Phase::Path(_)),
+                );
+                loads = Some((start, ramp));
+            }
+        }
+        analysis.engine.restore(search);
+        Ok(History { analysis, position, loads })
+    }
+
+    /// The state after the last increment, from which the history can go on.
+    pub fn checkpoint(&self) -> Checkpoint {
+        let Analysis { state, totals, engine, .. } = &self.analysis;
+        let before = self.loads.as_ref().map(|(start, _)| start.before().map(<[f64]>::to_vec));
+        let (position, search) = (self.position.clone(), engine.search());
+        Checkpoint { position, state: state.clone(), totals: totals.clone(), search, before }
+    }
+
+    /// The model after the last increment.
+    pub fn state(&self) -> &State {
+        &self.analysis.state
+    }
+
+    /// The counts so far.
+    pub fn totals(&self) -> &Totals {
+        &self.analysis.totals
+    }
+
+    /// The clock, whose stages go on between increments.
+    pub fn clock(&mut self) -> &mut Clock {
+        &mut self.analysis.clock
+    }
+
+    /// The next increment; first the unloaded state with number 0, none at the end. Where no equilibrium is found the last
+    /// increment comes once more with all its fields, and then the error.
+    #[expect(clippy::should_implement_trait, reason = "a history ends with an error or without")]
+    pub fn next(&mut self) -> Result<Option<Increment<'a>>> {
+        let problem = self.analysis.problem;
+        while let Some(stage) = problem.stages.get(self.position.step) {
+            let step = self.position.step;
+            if let Some(increment) = self.go_on(step, stage)? {
+                return Ok(Some(increment));
+            }
+        }
+        self.analysis.clock.begin("end");
+        Ok(None)
+    }
+
+    /// The next phase of a step, and the increment that it gives.
+    fn go_on(&mut self, step: usize, stage: &'a Stage) -> Result<Option<Increment<'a>>> {
+        let History { analysis, position, loads } = self;
+        let at = Increment::of(step, stage, analysis.totals.increments);
+        let reached = match (&mut position.phase, loads) {
+            (Phase::Supports, loads) => {
+                *loads = None;
+                analysis.clock.begin("factor");
+                let factored = analysis.engine.support(&stage.held);
+                let factored = factored.map_err(|_| singular(stage, analysis.totals.increments))?;
+                analysis.totals.factorisations += usize::from(factored);
+                position.phase = Phase::Loads;
+                return Ok((step == 0).then_some(at));
+            }
+            (Phase::Load(at), Some((start, _))) => load::next(analysis, stage, start, at)?,
+            (Phase::Path(at), Some((start, Some(ramp)))) => path::next(analysis, stage, start, ramp, at)?,
+            (Phase::Lost { number, load_factor, why, shown }, loads) => {
+                let increment = analysis.totals.increments;
+                if let (false, Some((start, _)), 1..) = (*shown, loads, increment) {
+                    *shown = true;
+                    let Analysis { problem, engine, state, .. } = analysis;
+                    complete(problem, &**engine, state, start.at(*load_factor)?);
+                    let (number, load_factor) = (*number, *load_factor);
+                    return Ok(Some(Increment { number, load_factor, ended: true, ..at }));
+                }
+                return Err(no_equilibrium(analysis.problem, stage, *number, increment, *load_factor, why));
+            }
+            (Phase::Loads | Phase::Load(_) | Phase::Path(_), _) => {
+                self.open(step, stage)?;
+                return Ok(None);
+            }
+        };
+        let progress::Reached { number, load_factor, iterations, last, moved, lost } = reached;
+        if let Some(why) = lost {
+            position.phase = Phase::Lost { number, load_factor, why, shown: false };
+        } else if last {
+            *position = Position { step: step + 1, phase: Phase::Supports };
+        }
+        if !moved {
+            analysis.totals.iterations += iterations;
+            return Ok(None);
+        }
+        let mut increment = Increment { number, load_factor, iterations, last, ..at };
+        account(analysis, &mut increment)?;
+        Ok(Some(increment))
+    }
+
+    /// Prepares the loads of a step.
+    fn open(&mut self, step: usize, stage: &'a Stage) -> Result<()> {
+        let History { analysis, position, loads } = self;
+        let problem = analysis.problem;
+        let start = |state: &State| {
+            let (u, reactions) = (state.snapshot.u.clone(), state.reactions.clone());
+            Start::new(problem, stage, initial_force(problem), u, reactions)
+        };
+        if step == 0 {
+            let unloaded = start(&analysis.state);
+            settle(analysis, stage, &unloaded)?;
+        }
+        let start = start(&analysis.state);
+        let ramp = start.ramp()?;
+        let follows = stage.control != Control::Load && !active(problem).is_empty() && ramp.is_some();
+        let thrifty = load::prepare(analysis, stage, &start, ramp.as_ref(), follows);
+        analysis.state.open(ramp.as_ref().filter(|_| thrifty).map(|ramp| start.ledger(ramp)));
+        position.phase = match follows {
+            true => Phase::Path(PathStep::new(stage, analysis.state.dissipated)),
+            false => Phase::Load(LoadStep::new(stage, thrifty)),
+        };
+        *loads = Some((start, ramp));
+        Ok(())
+    }
+}

@@ -1,46 +1,82 @@
 //! Snaps to another branch of equilibria, as they are told.
 
-use super::course::Course;
-use super::march::Snap;
-use super::parts::Leg;
-use super::viscous::Stretch;
+use super::analysis::Analysis;
+use super::converged::Converged;
+use super::progress::LoadIncrement;
+use super::stretch::ViscousStretch;
+use super::totals::Snap;
 
 /// A stretch whose viscous work is done by this part at open points that close is a gap that closes, no snap.
 const FALLS: f64 = 0.5;
 /// Released energy below this part of the largest is not told.
-pub(super) const NOTHING: f64 = 1e-6;
+const NOTHING: f64 = 1e-6;
 /// Viscous work above this part of all that is dissipated is a snap.
-pub(super) const TOLD: f64 = 0.02;
+const TOLD: f64 = 0.02;
 
-impl Course<'_, '_> {
-    /// Tells a stretch that released energy as a snap.
-    pub(super) fn tell(&mut self, leg: &Leg, energy: f64, stretch: &Stretch, before: f64) {
-        let released = self.state.released - before;
-        if released <= (TOLD * self.state.dissipated).max(NOTHING * energy.max(self.state.largest_energy())) {
-            return;
-        }
-        if stretch.closing > FALLS * released {
-            return; // a gap closes
-        }
-        let (interface, at) = self.place_of(&stretch.worst());
-        let half = before + 0.5 * released;
-        let (to, _) = stretch.work.last().copied().unwrap_or((leg.goal, 0.0));
-        let load_factor = stretch.work.iter().find(|(_, work)| *work >= half).map_or(to, |(level, _)| *level);
-        self.totals.snaps.push(Snap {
-            increment: self.totals.increments + 1,
-            step: leg.stage.name.clone(),
-            load_factor,
-            between: [stretch.from, to],
-            interface,
-            at,
-            released,
-        });
+/// Tells a stretch that released energy as a snap.
+pub(super) fn tell(
+    analysis: &mut Analysis,
+    leg: &LoadIncrement,
+    energy: f64,
+    stretch: &ViscousStretch,
+    before: f64,
+) {
+    let released = analysis.state.released - before;
+    if released
+        <= (TOLD * analysis.state.dissipated).max(NOTHING * energy.max(analysis.state.largest_energy()))
+    {
+        return;
     }
+    if stretch.closing > FALLS * released {
+        return; // a gap closes
+    }
+    let (interface, at) = place_of(analysis, &stretch.worst());
+    let half = before + 0.5 * released;
+    let (to, _) = stretch.work.last().copied().unwrap_or((leg.goal, 0.0));
+    let load_factor = stretch.work.iter().find(|(_, work)| *work >= half).map_or(to, |(level, _)| *level);
+    analysis.totals.snaps.push(Snap {
+        increment: analysis.totals.increments + 1,
+        step: leg.stage.name.clone(),
+        load_factor,
+        between: [stretch.from, to],
+        interface,
+        at,
+        released,
+    });
+}
 
-    /// Name and position of a law point.
-    pub(super) fn place_of(&self, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
-        let Some(&(joint, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
-        let joint = &self.problem.model.joints[joint];
-        (joint.name.clone(), joint.coupling.points[point].position)
+/// Name and position of a law point.
+pub(super) fn place_of(analysis: &Analysis, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
+    let Some(&(joint, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
+    let joint = &analysis.problem.model.joints[joint];
+    (joint.name.clone(), joint.coupling.points[point].position)
+}
+
+/// Tells energy that is lost at once in a part, where a traction drops, as a snap.
+pub(super) fn tell_drop(
+    analysis: &mut Analysis,
+    leg: &LoadIncrement,
+    energy: f64,
+    [from, to]: [f64; 2],
+    found: &Converged,
+) {
+    let (mut released, mut most) = (0.0, (0.0, (0, 0)));
+    for of in &found.joints {
+        let points = &analysis.problem.model.joints[of.joint].coupling.points;
+        for (p, (point, answer)) in points.iter().zip(&of.memory).enumerate() {
+            released += analysis.problem.model.thickness * point.weight * answer.released;
+            if answer.released > most.0 {
+                most = (answer.released, (of.joint, p));
+            }
+        }
     }
+    if released
+        <= (TOLD * analysis.state.dissipated).max(NOTHING * energy.max(analysis.state.largest_energy()))
+    {
+        return;
+    }
+    let (interface, at) = place_of(analysis, &[most.1]);
+    let (increment, step) = (analysis.totals.increments + 1, leg.stage.name.clone());
+    let between = [from, to];
+    analysis.totals.snaps.push(Snap { increment, step, load_factor: to, between, interface, at, released });
 }

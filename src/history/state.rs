@@ -9,8 +9,10 @@
 //! that work − stored − dissipated − released is an error: of second order in the parts, and none of round-off size if a
 //! dissipation or an energy is wrong.
 
-use super::energy::elastic_energy;
-use super::equilibrium::Engine;
+use serde::{Deserialize, Serialize};
+
+use super::converged::{Converged, InterfaceResponse};
+use super::energy::{across, elastic_energy, work_to};
 use super::loading::{Forces, Ledger, Load};
 use crate::assembly::{Joint, Model};
 use crate::continuum::{Stresses, recover};
@@ -20,7 +22,7 @@ use crate::problem::{BoundProbe, ProbeInput, Problem};
 use crate::solver::Solution;
 
 /// The model after an increment.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct State {
     /// Jumps, tractions and states of the joints; displacements and stresses of the bodies where fields are stored, else
     /// none.
@@ -47,49 +49,6 @@ pub struct State {
     ledger: Option<Ledger>,
     /// Joints whose jumps were found as unknowns, not taken from displacements.
     found: Vec<bool>,
-}
-
-/// A joint whose jumps are unknowns, after an increment that converged.
-#[derive(Debug, Clone)]
-pub(super) struct JointAnswer {
-    /// Its number.
-    pub(super) joint: usize,
-    /// Jump (n, t) at the law points.
-    pub(super) jumps: Vec<[f64; 2]>,
-    /// What the laws answered at its law points.
-    pub(super) memory: Vec<Answer>,
-}
-
-/// What a law point remembers of an answer.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Answer {
-    pub(super) state: law::State,
-    /// Energy dissipated in the increment per area, and its derivative by the jump.
-    pub(super) dissipation: f64,
-    pub(super) gradient: [f64; 2],
-    /// Elastic energy lost at once in the increment per area.
-    pub(super) released: f64,
-    /// Viscous traction at its end.
-    pub(super) viscous: [f64; 2],
-}
-
-/// An increment that converged.
-#[derive(Debug, Clone)]
-pub(super) struct Found {
-    /// Displacements and reactions, if they were recovered.
-    pub(super) solution: Option<Solution>,
-    /// What stands for them otherwise.
-    pub(super) ledger: Option<Ledger>,
-    /// Joints whose jumps are unknowns.
-    pub(super) joints: Vec<JointAnswer>,
-    /// Viscous work [force × length].
-    pub(super) released: f64,
-    /// Bend of the tractions of joints that dilate in a viscous step: their mean less Simpson's, √(Σ w |Δt|²).
-    pub(super) bend: f64,
-    pub(super) iterations: usize,
-    /// Iterations of a search before that found nothing.
-    pub(super) wasted: usize,
-    pub(super) residuals: Vec<f64>,
 }
 
 impl State {
@@ -130,17 +89,19 @@ impl State {
     }
 
     /// True if displacements were recovered.
-    fn is_complete(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         !self.snapshot.u.is_empty()
     }
 
     /// Takes what converged under a load.
-    pub(super) fn accept(&mut self, problem: &Problem, found: Found, load: Load) {
-        let Found { solution, mut ledger, joints, released, residuals, .. } = found;
+    pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: Load) {
+        let Converged { solution, mut ledger, joints, released, residuals, .. } = found;
         self.released += released;
         self.work += match (&ledger, &self.ledger, &solution) {
             (Some(now), Some(before), _) => now.work_since(before),
-            (_, _, Some(solution)) if self.is_complete() => self.work_to(solution, &load),
+            (_, _, Some(solution)) if self.is_complete() => {
+                work_to(&self.snapshot, [&self.force, &self.reactions], solution, &load)
+            }
             _ => f64::NAN, // an engine that keeps no ledger recovers every increment
         };
         if let Some(ledger) = &mut ledger {
@@ -156,7 +117,7 @@ impl State {
             reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
             (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
         }
-        for JointAnswer { joint, jumps, memory } in joints {
+        for InterfaceResponse { joint, jumps, memory } in joints {
             let old = &mut self.snapshot.states[joint];
             let points = &problem.model.joints[joint].coupling.points;
             for ((point, old), answer) in points.iter().zip(old).zip(memory) {
@@ -178,17 +139,13 @@ impl State {
         self.residuals = vec![residual];
     }
 
-    /// Recovers what an increment without stored fields has left out.
-    pub(super) fn complete(&mut self, problem: &Problem, engine: &dyn Engine, load: Load) {
-        if self.is_complete() {
-            return;
-        }
-        if let Some(Solution { u, mut reactions, .. }) = engine.recover(&load) {
-            let Forces { force, released, .. } = load.into_forces();
-            reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
-            (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
-            self.recover(problem);
-        }
+    /// Takes what an increment without stored fields has left out.
+    pub(super) fn complete(&mut self, problem: &Problem, solution: Solution, load: Load) {
+        let Solution { u, mut reactions, .. } = solution;
+        let Forces { force, released, .. } = load.into_forces();
+        reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
+        (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
+        self.recover(problem);
     }
 
     /// Stresses, tractions and stored energy of the displacements and states.
@@ -200,7 +157,7 @@ impl State {
             false => Vec::new(),
         };
         self.stored = match &self.ledger {
-            Some(ledger) if !self.is_complete() => ledger.stored(self.across(model)),
+            Some(ledger) if !self.is_complete() => ledger.stored(across(model, &self.snapshot)),
             _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
         };
         self.snapshot.tractions = Vec::new();

@@ -58,7 +58,7 @@ pub enum Stepping {
 }
 
 /// What a law point remembers from one increment to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct State {
     /// Jump (n, t) at the last accepted increment [length].
     pub jump: Vector2<f64>,

@@ -13,11 +13,13 @@ pub use files::{write_json, write_whole};
 pub use geometry::write_geometry;
 pub use writer::{Row, Writer};
 
+use serde::{Deserialize, Serialize};
+
 use crate::continuum::Stresses;
 use crate::law;
 
 /// One state of the model, as it is written.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Displacement of every dof [length].
     pub u: Vec<f64>,

@@ -28,6 +28,13 @@ pub struct Reaction {
     pub dofs: Vec<usize>,
 }
 
+impl Reaction {
+    /// Its column, `reaction:<group>:<direction>`.
+    pub fn name(&self) -> String {
+        format!("reaction:{}:{}", self.group, self.direction.name())
+    }
+}
+
 /// Loads in force, by key and what they act on.
 pub(super) type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
 

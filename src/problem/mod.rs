@@ -67,6 +67,12 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Names of the history's columns after the fixed ones: probes, then reactions.
+    pub fn columns(&self) -> Vec<String> {
+        let reactions = self.reactions.iter().map(Reaction::name);
+        self.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
+    }
+
     /// Binds a scene to the meshes of its subdomains, in their order.
     pub fn bind(scene: &Scene, meshes: Vec<Mesh>) -> Result<Problem> {
         Problem::bind_joined(scene, meshes, &[])

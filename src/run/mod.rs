@@ -5,18 +5,21 @@
 mod folder;
 pub mod point;
 mod prepare;
+mod results;
 mod shared;
 mod summary;
 
 pub use prepare::{Prepared, mesh, prepare};
 pub use shared::Shared;
 
+use results::Results;
+
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{Error, Result, Warning};
-use crate::history::{Clock, Means, Place, State, Totals, march_within, memory};
-use crate::output::{Row, Writer};
+use crate::history::{Clock, Equations, History, Means, StageNow, State, Totals, memory};
+use crate::output::Row;
 use crate::problem::Problem;
 use crate::scene::Fields;
 
@@ -46,8 +49,8 @@ impl Options {
 /// What happens, for whoever shows it.
 #[derive(Debug)]
 pub enum Event<'a> {
-    /// A stage begins.
-    Stage(&'static str),
+    /// The run has begun; the stage under way can be read from now on.
+    Began(&'a StageNow),
     /// A mesh is there.
     Meshed {
         /// The subdomain, or the geometry that several share.
@@ -107,78 +110,26 @@ pub fn run(options: &Options, listen: Listener) -> Result<Done> {
 
 /// `run` with what other runs of this process have left, and leaving them what they can use.
 pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Done> {
-    let Prepared { scene, name, problem, mut folder, mut clock } =
+    let Prepared { scene, name, problem, folder, mut clock } =
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
-    let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
-    let listen = std::cell::RefCell::new(listen);
-    let mut writer: Option<Writer> = None;
-    let (mut balance, mut kept, mut stored) = (None, Totals::default(), 0);
-    let mut visit = |place: Place, state: &State, totals: &Totals, clock: &mut Clock| -> Result<()> {
-        (listen.borrow_mut())(Event::Stage("write"));
-        clock.begin("write");
-        let fields = scene.output.fields;
-        if place.number == 0 {
-            // the first factor stands: a run that is refused before leaves the last results in place
-            folder.keep();
-            let mut opened = Writer::create(&path, &name, &prepare::columns(&problem))?;
-            opened.midplanes(&problem.model)?;
-            if matches!(fields, Fields::Every | Fields::Step) {
-                opened.fields(&problem.model, &state.snapshot, 0, 0.0)?;
-            }
-            writer = Some(opened);
-            return Ok(());
-        }
-        let Some(writer) = &mut writer else { return Ok(()) };
-        let wanted = match fields {
-            Fields::Every => true,
-            Fields::Step => place.ended || place.last,
-            Fields::Last => place.ended || place.last && place.step + 1 == problem.stages.len(),
-            Fields::None => false,
-        };
-        if wanted && stored < place.increment {
-            let time = place.step as f64 + place.load_factor;
-            writer.fields(&problem.model, &state.snapshot, place.increment, time)?;
-            stored = place.increment;
-        }
-        if !state.force.is_empty() {
-            balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
-        }
-        kept = totals.clone();
-        if place.ended {
-            return Ok(()); // its row is written
-        }
-        let row = Row {
-            step: place.stage.name.clone(),
-            increment: place.increment,
-            load_factor: place.load_factor,
-            iterations: place.iterations,
-            residual: state.residual,
-            energy_balance: state.energy_balance(),
-            values: state.probes(&problem),
-        };
-        writer.row(&row)?;
-        let of = place.stage.increments;
-        let (number, problem) = (place.number, &problem);
-        (listen.borrow_mut())(Event::Increment { row: &row, number, of, total, totals, problem, state });
-        Ok(())
-    };
-    let means = Means { memory: memory::available(), shelf: shared.map(|shared| shared.shelf.clone()) };
-    let mut stage = |name| (listen.borrow_mut())(Event::Stage(name));
-    let marched = march_within(means, &problem, &mut clock, &mut stage, &mut visit);
-    let (totals, end) = match marched {
-        Ok(totals) => (totals, None),
-        Err(end @ Error::NoEquilibrium { .. }) => (kept, Some(end)),
+    let means = Means { shelf: shared.map(|shared| shared.shelf.clone()), ..Means::default() };
+    let equations = Equations::new(&problem, means, &mut clock)?;
+    let mut history = History::new(&problem, &equations, clock);
+    let mut results = Results::new(&scene, &name, &problem, folder);
+    let end = match follow(&mut history, &mut results, listen) {
+        Ok(()) => None,
+        Err(end @ Error::NoEquilibrium { .. }) => Some(end),
         Err(other) => return Err(other),
     };
-    totals.reused.iter().for_each(|what| (listen.borrow_mut())(Event::Reused(what)));
-    for warning in &totals.warnings(problem.solution.path_tolerance) {
-        (listen.borrow_mut())(Event::Warning(warning));
+    equations.reused().iter().for_each(|what| listen(Event::Reused(what)));
+    if end.is_none() {
+        results.totals = history.totals().clone();
     }
-    if let (Some(writer), Some(balance)) = (&writer, balance) {
-        let end = end.as_ref().map(Error::to_string);
-        writer.summary(&summary::summary(&scene, &name, &problem, &totals, balance, &clock, end))?;
+    for warning in &results.totals.warnings(problem.solution.path_tolerance) {
+        listen(Event::Warning(warning));
     }
+    results.summary(history.clock(), end.as_ref())?;
     if let Some(end) = end {
         return Err(end);
     }
@@ -186,5 +137,21 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
         Fields::None => path.clone(),
         _ => path.join(format!("{name}.pvd")),
     };
+    let (clock, totals) = (history.clock().clone(), results.totals);
     Ok(Done { folder: path, collection, clock, totals, peak_memory: memory::peak() })
+}
+
+/// Goes through the history, writes every increment and tells of it.
+fn follow(history: &mut History, results: &mut Results, listen: Listener) -> Result<()> {
+    let problem = results.problem;
+    let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
+    while let Some(increment) = history.next()? {
+        history.clock().begin("write");
+        let (state, totals) = (history.state(), history.totals());
+        if let Some(row) = results.write(&increment, state, totals)? {
+            let (number, of) = (increment.number, increment.stage.increments);
+            listen(Event::Increment { row: &row, number, of, total, totals, problem, state });
+        }
+    }
+    Ok(())
 }

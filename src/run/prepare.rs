@@ -40,13 +40,11 @@ pub(super) fn prepare_sharing(
     listen: Listener,
 ) -> Result<Prepared> {
     let Ready { scene, name, folder, mut clock, files, file_of } = mesh_scene(options, shared, listen)?;
-    listen(Event::Stage("read meshes"));
     clock.begin("read meshes");
     let read = |path: &PathBuf| shared.map_or_else(|| mesh::read(path), |shared| shared.read(path));
     let meshes = files.par_iter().map(read).collect::<Vec<Result<Mesh>>>();
     let meshes = meshes.into_iter().collect::<Result<Vec<Mesh>>>()?; // of several errors the first counts
     let (meshes, mut warnings) = subdomain_meshes(&scene, meshes, &file_of)?;
-    listen(Event::Stage("bind"));
     clock.begin("bind");
     let mut problem = match shared {
         Some(shared) => {
@@ -95,12 +93,11 @@ struct Ready {
 }
 
 fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Ready> {
-    listen(Event::Stage("read scene"));
     let mut clock = Clock::new("read scene");
+    listen(Event::Began(clock.now()));
     let scene = scene::read(&options.scene, &options.settings)?;
     let name = scene_name(&scene.source.file);
     let out = options.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
-    listen(Event::Stage("mesh"));
     clock.begin("mesh");
     let (files, file_of) = files(&scene)?;
     let jobs: Vec<Job> = files.iter().filter_map(Origin::job).cloned().collect();
@@ -194,13 +191,4 @@ fn scene_name(file: &Path) -> String {
         (Some(folder), _) => format!("{folder}_{stem}"),
         (None, _) => stem,
     }
-}
-
-/// Names of the history's columns after the fixed ones: probes, then reactions.
-pub(super) fn columns(problem: &Problem) -> Vec<String> {
-    let reactions = problem
-        .reactions
-        .iter()
-        .map(|reaction| format!("reaction:{}:{}", reaction.group, reaction.direction.name()));
-    problem.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
 }

@@ -6,7 +6,7 @@ use indexmap::IndexMap;
 use serde::Serialize;
 
 use crate::assembly::Model;
-use crate::history::{Clock, Resultant, Snap, Totals, memory, resultant};
+use crate::history::{Clock, Operations, Resultant, Snap, Totals, memory, resultant};
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::Scene;
 
@@ -80,13 +80,6 @@ struct Solution {
     residual: f64,
     /// Largest |work − stored − dissipated − released| over the largest of them.
     energy_balance: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Operations {
-    condensed: f64,
-    blocks: f64,
-    plain: f64,
 }
 
 /// Applied loads against reactions at the last increment.
@@ -186,12 +179,8 @@ pub(super) fn summary<'a>(
             snaps: totals.snaps.clone(),
             released: totals.released,
             factorisations: totals.factorisations,
-            strategy: totals.strategy,
-            operations: totals.estimate.map(|e| Operations {
-                condensed: e.condensed,
-                blocks: e.blocks,
-                plain: e.plain,
-            }),
+            strategy: totals.method.name(),
+            operations: totals.operations,
             factor_entries: totals.factor_entries,
             residual: totals.residual,
             energy_balance: totals.energy_balance,

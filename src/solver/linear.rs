@@ -9,7 +9,7 @@ use super::{Factor, NotPositiveDefinite, Plan, Solution};
 use crate::assembly::{Joint, Pattern, Symmetric};
 
 /// The matrix of a linear scene: continuum and joints of constant stiffness.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct System<'a> {
     /// The joints.
     pub joints: &'a [Joint],
@@ -24,7 +24,7 @@ pub struct System<'a> {
 /// A factored system with its supports.
 #[derive(Debug)]
 pub struct Linear<'a> {
-    system: &'a System<'a>,
+    system: System<'a>,
     held: Vec<bool>,
     total: Symmetric,
     factor: Factor<'a>,
@@ -32,11 +32,7 @@ pub struct Linear<'a> {
 
 impl<'a> Linear<'a> {
     /// Factors the system with the dofs in `held` prescribed.
-    pub fn new(
-        system: &'a System<'a>,
-        plan: &'a Plan,
-        held: &[bool],
-    ) -> Result<Linear<'a>, NotPositiveDefinite> {
+    pub fn new(system: System<'a>, plan: &'a Plan, held: &[bool]) -> Result<Linear<'a>, NotPositiveDefinite> {
         let mut total = system.continuum.clone();
         for (joint, stiffness) in system.joints.iter().zip(system.stiffness) {
             joint.add_stiffness(system.pattern, stiffness, &mut total);

@@ -4,6 +4,8 @@
 //! Jacobian; laws answer jump by jump. The line search halves a step until the residual decreases: where points open, stick
 //! and slide by turns, full steps run in circles.
 
+use serde::{Deserialize, Serialize};
+
 use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
 use super::evaluation::{Answers, Evaluation, ask, evaluate, unconverged};
 use super::{Form, Respond};
@@ -56,7 +58,7 @@ pub struct Iterate<M> {
 }
 
 /// Why Newton ended without equilibrium.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Unconverged {
     /// In words.
     pub reason: String,

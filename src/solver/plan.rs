@@ -1,7 +1,9 @@
 //! Which factorisation a matrix gets: of the whole, or in parts side by side.
 
 use super::cholesky::MEDIUM;
-use super::{Cholesky, Cut, NotPositiveDefinite, Parts, PartsFactor, Symbolic, TooLarge, nested_dissection};
+use super::{
+    Cholesky, Cut, Method, NotPositiveDefinite, Parts, PartsFactor, Symbolic, TooLarge, nested_dissection,
+};
 use crate::assembly::{Pattern, Symmetric};
 
 /// The factorisation's plan for one pattern.
@@ -38,11 +40,11 @@ impl Plan {
         Symbolic::with_order(pattern, &order).map(Plan::Joined)
     }
 
-    /// How it solves, for people.
-    pub fn strategy(&self) -> &'static str {
+    /// Way in which it solves.
+    pub fn method(&self) -> Method {
         match self {
-            Plan::Joined(_) => "joined",
-            Plan::InParts(_) => "in parts",
+            Plan::Joined(_) => Method::Joined,
+            Plan::InParts(_) => Method::InParts,
         }
     }
 

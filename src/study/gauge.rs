@@ -21,14 +21,14 @@ pub(super) struct Gauge<'a> {
     taken: Vec<(f64, f64)>,
     /// Sizes and counts up to the last increment.
     pub(super) counts: IndexMap<&'static str, f64>,
-    /// How the equations are solved.
-    pub(super) strategy: &'static str,
+    /// Way in which the equations are solved.
+    pub(super) method: &'static str,
 }
 
 impl<'a> Gauge<'a> {
     pub(super) fn new(measures: &'a IndexMap<String, Measure>) -> Gauge<'a> {
         let taken = vec![(f64::NAN, -1.0); measures.len()];
-        Gauge { measures, taken, counts: IndexMap::new(), strategy: "" }
+        Gauge { measures, taken, counts: IndexMap::new(), method: "" }
     }
 
     /// Looks at an increment.
@@ -56,7 +56,7 @@ impl<'a> Gauge<'a> {
         let model = &problem.model;
         let stiffness = model.joints.iter().zip(&problem.laws);
         let stiffness = stiffness.map(|(joint, (law, _))| stiffness_number(model, joint, law));
-        self.strategy = totals.strategy;
+        self.method = totals.method.name();
         self.counts = IndexMap::from([
             ("nodes", model.nodes() as f64),
             ("dofs", model.dofs() as f64),
@@ -83,11 +83,7 @@ pub(super) fn column_of(measure: &str, of: &str) -> String {
 
 fn value(row: &Row, problem: &Problem, measure: &str, of: &str) -> f64 {
     let made = column_of(measure, of);
-    let names = problem.probes.iter().map(|(name, _)| name.clone());
-    let reactions = problem.reactions.iter();
-    let reactions =
-        reactions.map(|reaction| format!("reaction:{}:{}", reaction.group, reaction.direction.name()));
-    let found = names.chain(reactions).position(|name| name == of || name == made);
+    let found = problem.columns().iter().position(|name| *name == of || *name == made);
     found.and_then(|i| row.values.get(i)).copied().unwrap_or(f64::NAN)
 }
 

@@ -118,7 +118,7 @@ pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize
         message,
         values,
         counts: gauge.counts.iter().map(|(name, value)| (name.to_string(), *value)).collect(),
-        strategy: gauge.strategy.into(),
+        strategy: gauge.method.into(),
         seconds: vec![seconds],
         processor: Vec::new(),
         stages: vec![stages],

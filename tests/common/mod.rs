@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use indexmap::IndexMap;
-use midplane::history::{Clock, Place, State, Totals, march};
+use midplane::history::{Clock, Equations, History, Increment, Means, State, Totals};
 use midplane::mesh::{Cells, Edge, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::scene;
@@ -127,7 +127,7 @@ pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
     Problem::bind(&scene, meshes)
 }
 
-/// What a march gave: the places and states after its increments, and how it ended.
+/// A history: iterations, load factors and states of its increments, and how it ended.
 pub struct March {
     pub iterations: Vec<usize>,
     pub load_factors: Vec<f64>,
@@ -135,34 +135,43 @@ pub struct March {
     pub end: midplane::error::Result<Totals>,
 }
 
-/// Marches through a scene, to its end or not.
+/// Goes through a history, to its end or not.
 pub fn try_solve(problem: &Problem) -> March {
-    let (mut iterations, mut load_factors, mut states) = (Vec::new(), Vec::new(), Vec::new());
-    let mut clock = Clock::new("test");
-    let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
-        if place.number > 0 && !place.ended {
-            iterations.push(place.iterations);
-            load_factors.push(place.load_factor);
-            states.push(state.clone());
+    let (iterations, load_factors, states) = (Vec::new(), Vec::new(), Vec::new());
+    let mut march = March { iterations, load_factors, states, end: Ok(Totals::default()) };
+    march.end = each_increment(problem, |increment, history| {
+        if increment.number > 0 && !increment.ended {
+            march.iterations.push(increment.iterations);
+            march.load_factors.push(increment.load_factor);
+            march.states.push(history.state().clone());
         }
-        Ok(())
-    };
-    let end = march(problem, &mut clock, &mut |_| (), &mut visit);
-    March { iterations, load_factors, states, end }
+    });
+    march
+}
+
+/// Goes through a history and looks at every increment.
+pub fn each_increment(
+    problem: &Problem,
+    mut look: impl FnMut(&Increment, &History),
+) -> midplane::error::Result<Totals> {
+    let mut clock = Clock::new("test");
+    let equations = Equations::new(problem, Means::default(), &mut clock)?;
+    let mut history = History::new(problem, &equations, clock);
+    while let Some(increment) = history.next()? {
+        look(&increment, &history);
+    }
+    Ok(history.totals().clone())
 }
 
 /// All states of a scene after its increments, and the counts.
 pub fn solve(problem: &Problem) -> (Vec<State>, Totals) {
     let mut states = Vec::new();
-    let mut clock = Clock::new("test");
-    let mut visit = |place: Place, state: &State, _: &Totals, _: &mut Clock| {
-        if place.number > 0 {
-            states.push(state.clone());
+    let totals = each_increment(problem, |increment, history| {
+        if increment.number > 0 {
+            states.push(history.state().clone());
         }
-        Ok(())
-    };
-    let totals = march(problem, &mut clock, &mut |_| (), &mut visit).unwrap();
-    (states, totals)
+    });
+    (states, totals.unwrap())
 }
 
 /// Displacement of a node of a body.

@@ -3,10 +3,13 @@
 
 use nalgebra::Vector2;
 
-use crate::history::state::Answer;
+use crate::history::converged::PointResponse;
 use crate::law::{self, Law};
 use crate::problem::Problem;
 use crate::solver::Respond;
+
+/// A viscosity above this part of the stiffness makes tiny steps.
+const STIFF: f64 = 0.1;
 
 /// The laws from given states.
 ///
@@ -50,7 +53,7 @@ impl<'a> Laws<'a> {
 }
 
 impl Respond for Laws<'_> {
-    type Memory = Answer;
+    type Memory = PointResponse;
 
     fn respond(
         &self,
@@ -59,19 +62,19 @@ impl Respond for Laws<'_> {
         jump: &[f64],
         traction: &mut [f64],
         stiffness: &mut [f64],
-    ) -> Result<Answer, String> {
+    ) -> Result<PointResponse, String> {
         let (law, _) = &self.problem.laws[joint];
         if let Law::Elastic(_) = law {
             let [kn, kt] = law.elastic_stiffness();
             traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
             stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
-            return Ok(Answer::default());
+            return Ok(PointResponse::default());
         }
         if self.held.is_some_and(|held| held[joint][point]) {
             let (k, old) = (law.elastic_stiffness(), &self.old[joint][point]);
             (0..2).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
             stiffness.copy_from_slice(&[k[0], 0.0, 0.0, k[1]]);
-            return Ok(Answer::default());
+            return Ok(PointResponse::default());
         }
         let answer = self.own(joint, point, jump)?;
         traction.copy_from_slice(answer.traction.as_slice());
@@ -85,7 +88,7 @@ impl Respond for Laws<'_> {
                 stiffness[3 * i] += c;
             }
         }
-        Ok(Answer {
+        Ok(PointResponse {
             state: answer.state,
             dissipation: answer.dissipation,
             gradient: answer.dissipation_gradient.into(),
@@ -94,7 +97,7 @@ impl Respond for Laws<'_> {
         })
     }
 
-    fn dissipation<'m>(&self, memory: &'m Answer) -> (f64, &'m [f64]) {
+    fn dissipation<'m>(&self, memory: &'m PointResponse) -> (f64, &'m [f64]) {
         (memory.dissipation, &memory.gradient)
     }
 
@@ -102,4 +105,15 @@ impl Respond for Laws<'_> {
         let [kn, kt] = self.problem.laws[joint].0.elastic_stiffness();
         stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
     }
+}
+
+/// Friction may lag wherever it is steep: some law dilates and the viscosity is above the softening, or steps are so small
+/// that lagging costs nothing.
+pub(super) fn may_lag(problem: &Problem, viscosity: f64) -> bool {
+    let laws = || problem.laws.iter().map(|(law, _)| law).filter(|law| law.steepest_softening() > 0.0);
+    let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
+    let softening = laws().map(|law| law.steepest_softening()).fold(0.0, f64::max);
+    let least =
+        if laws().any(|law| law.dilates()) { softening.min(STIFF * stiffness) } else { STIFF * stiffness };
+    softening > 0.0 && viscosity >= least
 }

@@ -1,23 +1,28 @@
 //! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
 
-use super::estimate::{Estimate, Way};
-use super::{Ahead, Engine, Failure, Make, Path, Viscous, bases};
+use super::forms::Make;
+use super::{Ahead, Engine, Estimate, Failure, Path, Search, Viscous, Way};
 use crate::assembly::Joint;
+use crate::history::converged::{Converged, InterfaceResponse};
 use crate::history::loading::{Forces, Ledger, Load};
-use crate::history::state::{Found, JointAnswer, State};
-use crate::problem::Problem;
-use crate::solver::{
-    Base, Continuum, Factored, Linear, Measure, NotPositiveDefinite, Plan, Ramp, Solution, System,
-};
+use crate::history::state::State;
+use crate::solver::{Factored, Measure, NotPositiveDefinite, Ramp, Solution};
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
 /// load level two at most.
-pub(in crate::history) struct LinearEngine<'a, F> {
+pub(super) struct LinearEngine<'a, F> {
     joints: &'a [Joint],
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
     /// The step's loads, if they are affine.
     ends: Option<Ends>,
+}
+
+impl<'a, F> LinearEngine<'a, F> {
+    /// With factors made for every set of supports.
+    pub(super) fn new(joints: &'a [Joint], make: Make<'a, F>) -> Self {
+        LinearEngine { joints, make, factored: None, ends: None }
+    }
 }
 
 /// The answer to a load.
@@ -59,7 +64,7 @@ impl Ends {
         joints: &[Joint],
         level: f64,
         complete: bool,
-    ) -> Option<Found> {
+    ) -> Option<Converged> {
         let needed = if level == 1.0 { 1..2 } else { 0..2 };
         let missing: Vec<usize> = needed.filter(|&end| self.answers[end].is_none()).collect();
         let load = |&end: &usize| (&self.ramp.force[end][..], &self.ramp.prescribed[end][..]);
@@ -92,13 +97,13 @@ fn found(
     backward_error: f64,
     jumps: Vec<Vec<f64>>,
     ledger: Option<Ledger>,
-) -> Found {
+) -> Converged {
     let answer = |(joint, jumps): (usize, Vec<f64>)| {
         let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-        JointAnswer { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
+        InterfaceResponse { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
     };
     let joints = jumps.into_iter().enumerate().map(answer).collect();
-    Found {
+    Converged {
         solution,
         ledger,
         joints,
@@ -112,26 +117,6 @@ fn found(
 
 /// A solution with a larger backward error is not kept.
 const UNUSABLE: f64 = 1e-6;
-
-impl<'a> LinearEngine<'a, Linear<'a>> {
-    /// With one factor of the whole.
-    pub(in crate::history) fn joined(system: &'a System<'a>, plan: &'a Plan) -> Self {
-        let make = |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
-        LinearEngine { joints: system.joints, make: Box::new(make), factored: None, ends: None }
-    }
-}
-
-impl<'a> LinearEngine<'a, Base<'a>> {
-    /// With the bodies condensed on their joints.
-    pub(in crate::history) fn condensed(
-        problem: &'a Problem,
-        continuum: &'a Continuum,
-        stiffness: &'a [Vec<f64>],
-    ) -> Self {
-        let (joints, make) = (&problem.model.joints, bases(problem, continuum, stiffness));
-        LinearEngine { joints, make, factored: None, ends: None }
-    }
-}
 
 impl<F: Factored> Engine for LinearEngine<'_, F> {
     fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
@@ -154,9 +139,9 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         true
     }
 
-    fn solve(&mut self, _: &State, load: &Load, _: Ahead, complete: bool) -> Result<Found, Failure> {
+    fn solve(&mut self, _: &State, load: &Load, _: Ahead, complete: bool) -> Result<Converged, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let usable = |found: &Found| found.residuals[0] <= UNUSABLE;
+        let usable = |found: &Converged| found.residuals[0] <= UNUSABLE;
         let between =
             self.ends.as_mut().and_then(|ends| ends.at(factored, self.joints, load.level, complete));
         if let Some(found) = between.filter(usable) {
@@ -170,15 +155,15 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
     }
 
-    fn creep(&mut self, _: &State, _: &Load, _: Viscous, _: bool) -> Result<Found, Failure> {
+    fn creep(&mut self, _: &State, _: &Load, _: Viscous, _: bool) -> Result<Converged, Failure> {
         Err(Failure::Unusable(f64::INFINITY)) // nothing softens
     }
 
-    fn estimate(&mut self, _: &State, _: &Found, _: Way) -> Option<Estimate> {
+    fn estimate(&mut self, _: &State, _: &Converged, _: Way) -> Option<Estimate> {
         None
     }
 
-    fn is_reached(&mut self, _: &State, _: &Found, _: &Load) -> bool {
+    fn is_reached(&mut self, _: &State, _: &Converged, _: &Load) -> bool {
         true
     }
 
@@ -190,7 +175,7 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         0.0
     }
 
-    fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Found, f64), Failure> {
+    fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Converged, f64), Failure> {
         Err(Failure::Unusable(f64::INFINITY)) // nothing dissipates
     }
 
@@ -198,9 +183,15 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         None
     }
 
-    fn keep(&mut self) {}
+    fn search(&self) -> Search {
+        Search::default()
+    }
 
-    fn go_back(&mut self) {}
+    fn restore(&mut self, _: Search) {}
+
+    fn begin_viscous(&mut self) -> Search {
+        Search::default()
+    }
 
     fn accept(&mut self) {}
 }

@@ -1,21 +1,25 @@
 //! What finds the equilibrium of one increment: a linear scene without iteration (`linear`), any other by Newton's method
 //! (`newton`).
 
-pub(super) mod estimate;
+mod equations;
+mod estimate;
+mod forms;
+mod late;
 mod laws;
-pub(super) mod linear;
-pub(super) mod newton;
+mod linear;
+mod newton;
 pub(super) mod strategy;
+mod view;
+mod viscosity;
 
-use std::sync::Arc;
+pub use equations::{Equations, Means};
 
+use serde::{Deserialize, Serialize};
+
+use super::converged::Converged;
 use super::loading::Load;
-use super::state::{Found, State};
-use crate::problem::Problem;
-use crate::solver::{
-    Base, Condensation, Continuum, Measure, NotPositiveDefinite, Ramp, Solution, Unconverged,
-};
-use estimate::{Estimate, Way};
+use super::state::State;
+use crate::solver::{Measure, NotPositiveDefinite, Ramp, Solution, Unconverged};
 
 /// Why an increment has no equilibrium.
 #[derive(Debug)]
@@ -24,6 +28,27 @@ pub(in crate::history) enum Failure {
     Unconverged(Unconverged),
     /// Nothing will help: rounding or overflow leaves this backward error.
     Unusable(f64),
+}
+
+/// Points that reach their surface within this fraction of a part do so at once.
+const ON: f64 = 1e-6;
+
+/// Where the search for equilibria stands: what the next one starts from.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(in crate::history) struct Search {
+    /// Unknowns of the form at the accepted increment before the last, and at the last.
+    before: Vec<f64>,
+    unknowns: Vec<f64>,
+    /// Forces of the interfaces at the last.
+    forces: Vec<Vec<f64>>,
+    /// Viscous tractions there at the law points of every active interface; none where nothing is viscous.
+    viscous: Vec<Vec<f64>>,
+    /// Friction lags wherever it is steep in viscous steps, since steps without failed.
+    lags: bool,
+    /// What was measured without displacements is good enough.
+    trusted: bool,
+    /// No increment of the step has been tried yet.
+    first: bool,
 }
 
 /// Starting points of the search for an equilibrium.
@@ -74,7 +99,13 @@ pub(in crate::history) trait Engine {
 
     /// Equilibrium at a load level, sought from the last accepted one and beyond it. Displacements are recovered if they are
     /// asked for (`complete`) or needed.
-    fn solve(&mut self, state: &State, load: &Load, ahead: Ahead, complete: bool) -> Result<Found, Failure>;
+    fn solve(
+        &mut self,
+        state: &State,
+        load: &Load,
+        ahead: Ahead,
+        complete: bool,
+    ) -> Result<Converged, Failure>;
 
     /// A backward Euler step of joints with a viscosity, under a load, from the last accepted state.
     fn creep(
@@ -83,15 +114,15 @@ pub(in crate::history) trait Engine {
         load: &Load,
         viscous: Viscous,
         complete: bool,
-    ) -> Result<Found, Failure>;
+    ) -> Result<Converged, Failure>;
 
     /// Error of what was found last, from the laws in the middle of the way there; none if nothing cracks, slides, opens or
     /// closes, so that the way is straight.
-    fn estimate(&mut self, state: &State, found: &Found, way: Way) -> Option<Estimate>;
+    fn estimate(&mut self, state: &State, found: &Converged, way: Way) -> Option<Estimate>;
 
     /// True if small parts lead to what was found last too: points that crack in it after others have reached their strength
     /// (one linear system).
-    fn is_reached(&mut self, state: &State, found: &Found, end: &Load) -> bool;
+    fn is_reached(&mut self, state: &State, found: &Converged, end: &Load) -> bool;
 
     /// Fraction of the way to a load, from that of the last accepted state, at which the first intact point of a softening law
     /// reaches its strength; none if none does.
@@ -101,49 +132,45 @@ pub(in crate::history) trait Engine {
     fn imbalance(&self, state: &State, load: &Load) -> f64;
 
     /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
-    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure>;
+    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Converged, f64), Failure>;
 
     /// Displacements and reactions of the last accepted increment, if the engine goes without.
     fn recover(&self, load: &Load) -> Option<Solution>;
 
-    /// Keeps where the search stands, for `go_back`.
-    fn keep(&mut self);
+    /// Where the search stands, to be returned to.
+    fn search(&self) -> Search;
 
-    /// Returns to what was kept last.
-    fn go_back(&mut self);
+    /// Returns to where the search stood.
+    fn restore(&mut self, search: Search);
+
+    /// Where the search stands before viscous steps, in which friction does not lag at first.
+    fn begin_viscous(&mut self) -> Search;
 
     /// What was found last is accepted: the next search starts from it.
     fn accept(&mut self);
 }
 
-/// Factors for a set of supports; true if something was factored anew.
-pub(in crate::history) type Make<'a, F> =
-    Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
-
-/// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
-pub(in crate::history) fn bases<'a>(
-    problem: &'a Problem,
-    continuum: &'a Continuum,
-    stiffness: &'a [Vec<f64>],
-) -> Make<'a, Base<'a>> {
-    let mut condense = condensations(continuum);
-    Box::new(move |held: &[bool]| {
-        let (condensation, anew) = condense(held)?;
-        Ok((Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?, anew))
-    })
+/// The error of a part of an increment.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::history) struct Estimate {
+    /// Change of the tractions at its end, √(Σ w |Δt|²) [stress × √length].
+    pub(in crate::history) traction: f64,
+    /// Change of the energy dissipated in it [force × length].
+    pub(in crate::history) dissipation: f64,
+    /// Error of the trapezoidal rule for the work of the interfaces [force × length].
+    pub(in crate::history) work: f64,
+    /// The work of the interfaces in the part, added up by magnitude [force × length].
+    pub(in crate::history) passed: f64,
+    /// The same, added up by magnitude, over the work of the interfaces in the part.
+    pub(in crate::history) bend: f64,
+    /// Intact points of softening laws have cracked, and some of them after others.
+    pub(in crate::history) cracked: bool,
+    pub(in crate::history) late: bool,
 }
 
-/// Makes the condensation of a set of supports, which serves all sets that differ on joints only.
-pub(in crate::history) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Condensation>> {
-    let mut condensed: Option<Arc<Condensation>> = None;
-    Box::new(move |held: &[bool]| {
-        let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
-        let anew = reused.is_none();
-        let condensation = match reused {
-            Some(condensation) => condensation,
-            None => Arc::new(continuum.condense(held)?),
-        };
-        condensed = Some(condensation.clone());
-        Ok((condensation, anew))
-    })
+/// The way of a part: load in its middle, and those of the step where its load factor was found along a path.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::history) struct Way<'a> {
+    pub(in crate::history) middle: &'a Load<'a>,
+    pub(in crate::history) step: Option<&'a [Load<'a>; 2]>,
 }

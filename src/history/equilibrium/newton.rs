@@ -1,163 +1,79 @@
-//! Newton's method as the engine of a march: forms made for each set of supports, laws asked with the committed states.
+//! Newton's method as the engine of a history: forms made for each set of supports, laws asked with the committed states.
 
-use super::estimate::{Estimate, Way};
-use super::laws::Laws;
+use super::forms::Make;
+use super::laws::{Laws, may_lag};
 use super::strategy::active;
-use super::{Ahead, Engine, Failure, Make, Path, Viscous, bases, condensations};
-use crate::assembly::{Pattern, Symmetric};
+use super::view::{View, ViewMut, target};
+use super::{Ahead, Engine, Estimate, Failure, Path, Search, Viscous, Way, estimate, late, viscosity};
+use crate::history::converged::{Converged, InterfaceResponse, PointResponse};
 use crate::history::loading::{Forces, Ledger, Load};
-use crate::history::state::{Answer, Found, JointAnswer, State};
+use crate::history::state::State;
 use crate::problem::Problem;
 use crate::solver::{
-    Affine, Blocks, Constraint, Continuum, Dual, Form, Iterate, Measure, Newton, NotPositiveDefinite, Plain,
-    Point, Ramp, Settings, Solution,
+    Affine, Constraint, Form, Iterate, Measure, Newton, NotPositiveDefinite, Point, Ramp, Settings, Solution,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
 const NEAR: f64 = 1e-3;
 /// Largest relative residual of a viscous step: what is stored is found without viscosity.
 const CREEP: f64 = 1e-7;
-/// A viscosity above this part of the stiffness makes tiny steps.
-const STIFF: f64 = 0.1;
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
 
 /// Newton's method on a form of the equilibrium that is made anew for every set of supports.
-pub(in crate::history) struct NewtonEngine<'a, F> {
-    pub(in crate::history) problem: &'a Problem,
-    /// All joints are elastic.
+pub(super) struct NewtonEngine<'a, F> {
+    problem: &'a Problem,
+    /// All interfaces are elastic.
     linear: bool,
-    pub(in crate::history) settings: Settings,
+    settings: Settings,
     make: Make<'a, F>,
-    pub(in crate::history) form: Option<(Vec<bool>, F, Newton)>,
-    /// Unknowns of the form at the accepted increment before the last, at the last, and at what was found last.
-    before: Vec<f64>,
-    pub(in crate::history) unknowns: Vec<f64>,
-    pub(in crate::history) found: Vec<f64>,
-    /// Forces of the joints at the last accepted increment, and at what was found last.
-    forces: [Vec<Vec<f64>>; 2],
-    /// Viscous tractions at the law points of every active joint, alike; none where nothing is viscous.
-    pub(in crate::history) viscous: [Vec<Vec<f64>>; 2],
-    /// Friction lags wherever it is steep in viscous steps, since steps without failed.
-    lags: bool,
-    /// Unknowns to which a search that failed returns.
-    kept: [Vec<f64>; 2],
-    /// The step's loads are prepared; so are its measures; these are good enough; no increment has been tried yet.
+    form: Option<(Vec<bool>, F, Newton)>,
+    search: Search,
+    /// Unknowns, forces of the interfaces and viscous tractions of what was found last.
+    found: (Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>),
+    /// The step's loads are prepared; so are its measures.
     prepared: bool,
     measured: bool,
-    trusted: bool,
-    first: bool,
 }
 
 impl<'a, F> NewtonEngine<'a, F> {
-    fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
-        let (before, unknowns, found) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
-        let (prepared, measured, trusted, first) = (false, false, false, true);
-        let linear = active(problem).is_empty();
-        NewtonEngine {
-            problem,
-            linear,
-            settings,
-            make,
-            form: None,
-            before,
-            unknowns,
-            found,
-            forces: [Vec::new(), Vec::new()],
-            viscous: [Vec::new(), Vec::new()],
-            lags: false,
-            kept: [Vec::new(), Vec::new()],
-            prepared,
-            measured,
-            trusted,
-            first,
-        }
-    }
-}
-
-impl<'a> NewtonEngine<'a, Dual<'a>> {
-    /// On the jump coefficients of the joints in `asked`.
-    pub(in crate::history) fn condensed(
-        problem: &'a Problem,
-        continuum: &'a Continuum,
-        asked: &'a [usize],
-        stiffness: &'a [Vec<f64>],
-        settings: Settings,
-    ) -> Self {
-        let size: usize = asked.iter().map(|&k| problem.model.joints[k].size()).sum();
-        let sound: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.joints))
-            .map(|((law, _), joint)| {
-                let [kn, kt] = law.elastic_stiffness();
-                [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
-            })
-            .collect();
-        let mut base = bases(problem, continuum, stiffness);
-        let make = move |held: &[bool]| {
-            let (base, anew) = base(held)?;
-            Ok((Dual::new(base, asked, stiffness, &sound), anew))
-        };
-        NewtonEngine::new(problem, settings, Box::new(make), size)
-    }
-}
-
-impl<'a> NewtonEngine<'a, Blocks<'a>> {
-    /// On the jump coefficients of all joints and the rigid motions of floating bodies.
-    pub(in crate::history) fn blocks(
-        problem: &'a Problem,
-        continuum: &'a Continuum,
-        stiffness: &'a [Vec<f64>],
-        settings: Settings,
-    ) -> Self {
-        let joints = &problem.model.joints;
-        let mut condense = condensations(continuum);
-        let make = move |held: &[bool]| {
-            let (condensation, anew) = condense(held)?;
-            Ok((Blocks::new(continuum, condensation, joints, stiffness, held)?, anew))
-        };
-        NewtonEngine::new(problem, settings, Box::new(make), Blocks::unknowns(continuum, joints))
-    }
-}
-
-impl<'a> NewtonEngine<'a, Plain<'a>> {
-    /// On all displacements.
-    pub(in crate::history) fn plain(
-        problem: &'a Problem,
-        pattern: &'a Pattern,
-        k: &'a Symmetric,
-        asked: &'a [usize],
-        stiffness: &'a [Vec<f64>],
-        settings: Settings,
-    ) -> Self {
-        let make = move |held: &[bool]| {
-            Ok((Plain::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
-        };
-        NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())
+    /// With a form of so many unknowns.
+    pub(super) fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
+        let zero = || vec![0.0; size];
+        let search = Search { before: zero(), unknowns: zero(), first: true, ..Search::default() };
+        let (linear, found) = (active(problem).is_empty(), (zero(), Vec::new(), Vec::new()));
+        let (prepared, measured) = (false, false);
+        NewtonEngine { problem, linear, settings, make, form: None, search, found, prepared, measured }
     }
 }
 
 impl<F: Form> NewtonEngine<'_, F> {
-    /// The last accepted unknowns, and a multiple of their last change beyond.
-    pub(in crate::history) fn onwards(&self, ahead: f64) -> Vec<f64> {
-        if ahead == 0.0 {
-            return self.unknowns.clone();
-        }
-        let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
-        self.unknowns.iter().zip(&self.before).map(along).collect()
+    fn view(&self) -> Option<View<'_, F>> {
+        let (problem, prepared) = (self.problem, self.prepared);
+        let (_, form, newton) = self.form.as_ref()?;
+        Some(View { problem, prepared, form, newton, unknowns: &self.search.unknowns, found: &self.found.0 })
     }
 
-    /// Friction may lag wherever it is steep: some law dilates and the viscosity is above the softening, or steps are so small
-    /// that lagging costs nothing.
-    fn may_lag(&self, viscosity: f64) -> bool {
-        let laws =
-            || self.problem.laws.iter().map(|(law, _)| law).filter(|law| law.steepest_softening() > 0.0);
-        let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
-        let softening = laws().map(|law| law.steepest_softening()).fold(0.0, f64::max);
-        let least = if laws().any(|law| law.dilates()) {
-            softening.min(STIFF * stiffness)
-        } else {
-            STIFF * stiffness
-        };
-        softening > 0.0 && viscosity >= least
+    fn view_mut(&mut self) -> Option<ViewMut<'_, F>> {
+        let (problem, prepared) = (self.problem, self.prepared);
+        let (_, form, newton) = self.form.as_mut()?;
+        Some(ViewMut {
+            problem,
+            prepared,
+            form,
+            newton,
+            unknowns: &self.search.unknowns,
+            found: &self.found.0,
+        })
+    }
+
+    /// The last accepted unknowns, and a multiple of their last change beyond.
+    fn onwards(&self, ahead: f64) -> Vec<f64> {
+        if ahead == 0.0 {
+            return self.search.unknowns.clone();
+        }
+        let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
+        self.search.unknowns.iter().zip(&self.search.before).map(along).collect()
     }
 
     /// Equilibrium under a load, sought from the better of two starts.
@@ -167,12 +83,12 @@ impl<F: Form> NewtonEngine<'_, F> {
         laws: &Laws,
         load: &Load,
         complete: bool,
-    ) -> Result<Found, Failure> {
-        let mut target = self.target(load)?;
+    ) -> Result<Converged, Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
+        let mut target = target(form, self.prepared, load)?;
         let (mut residuals, mut passes) = (Vec::new(), 0);
         // the first increment of a step shows whether displacements are needed against the rounding of the others
-        let complete = complete || self.first || !self.trusted;
+        let complete = complete || self.search.first || !self.search.trusted;
         let (iterate, solution) = loop {
             let starts = [&near, &start];
             let iterate = newton.solve(form, laws, &starts, &target, self.settings);
@@ -192,8 +108,8 @@ impl<F: Form> NewtonEngine<'_, F> {
             target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
             start = iterate.x;
         };
-        self.trusted &= passes <= 1;
-        self.first = false;
+        self.search.trusted &= passes <= 1;
+        self.search.first = false;
         let ledger = match self.measured {
             true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
             false => None,
@@ -201,42 +117,35 @@ impl<F: Form> NewtonEngine<'_, F> {
         Ok(self.found(solution, ledger, residuals, laws, iterate))
     }
 
-    /// b of a load.
-    pub(in crate::history) fn target(&self, load: &Load) -> Result<Vec<f64>, Failure> {
-        let Some((_, form, _)) = &self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let target = match self.prepared {
-            true => form.prepared(load.level),
-            false => {
-                let Forces { loaded, prescribed, .. } = load.forces();
-                form.target(loaded, prescribed)
-            }
-        };
-        match target.iter().all(|value| value.is_finite()) {
-            true => Ok(target),
-            false => Err(Failure::Unusable(f64::INFINITY)),
-        }
-    }
-
-    /// Keeps a solution for its acceptance, and tells the march of it.
+    /// Keeps a solution for its acceptance.
     fn found(
         &mut self,
         solution: Option<Solution>,
         ledger: Option<Ledger>,
         residuals: Vec<f64>,
         laws: &Laws,
-        iterate: Iterate<Answer>,
-    ) -> Found {
-        let [released, bend] = self.keep_viscous(laws, &iterate);
-        (self.found, self.forces[1]) = (iterate.x, iterate.forces);
-        let active = self.form.iter().flat_map(|(_, form, _)| form.active());
-        let joints = active.zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
+        iterate: Iterate<PointResponse>,
+    ) -> Converged {
+        let active = self.form.as_ref().map_or(&[][..], |(_, form, _)| form.active());
+        let (viscous, [released, bend]) = viscosity::account(laws, active, &self.search.viscous, &iterate);
+        self.found = (iterate.x, iterate.forces, viscous);
+        let joints = active.iter().zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
             let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-            JointAnswer { joint, jumps, memory }
+            InterfaceResponse { joint, jumps, memory }
         });
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
-        Found { solution, ledger, joints: joints.collect(), released, bend, iterations, wasted: 0, residuals }
+        Converged {
+            solution,
+            ledger,
+            joints: joints.collect(),
+            released,
+            bend,
+            iterations,
+            wasted: 0,
+            residuals,
+        }
     }
 }
 
@@ -256,12 +165,18 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         if let Some((_, form, _)) = &mut self.form {
             self.prepared = form.prepare(ramp, measures);
             self.measured = self.prepared && !measures.is_empty();
-            self.trusted = self.measured;
-            self.first = true;
+            self.search.trusted = self.measured;
+            self.search.first = true;
         }
     }
 
-    fn solve(&mut self, state: &State, load: &Load, ahead: Ahead, complete: bool) -> Result<Found, Failure> {
+    fn solve(
+        &mut self,
+        state: &State,
+        load: &Load,
+        ahead: Ahead,
+        complete: bool,
+    ) -> Result<Converged, Failure> {
         let Ahead { changes, near } = ahead;
         let starts =
             [self.onwards(NEAR * changes), self.onwards(if near { NEAR * changes } else { changes })];
@@ -275,14 +190,14 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         load: &Load,
         Viscous { viscosity, ahead, strict }: Viscous,
         complete: bool,
-    ) -> Result<Found, Failure> {
-        let starts = [self.unknowns.clone(), self.onwards(ahead)];
+    ) -> Result<Converged, Failure> {
+        let starts = [self.search.unknowns.clone(), self.onwards(ahead)];
         let (problem, old) = (self.problem, &state.snapshot.states);
         let laws = Laws {
             problem,
             old,
             viscosity: Some(viscosity),
-            lags: self.lags && self.may_lag(viscosity),
+            lags: self.search.lags && may_lag(self.problem, viscosity),
             held: None,
         };
         let settings = self.settings;
@@ -290,11 +205,11 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         self.settings = Settings { tolerance, initial_tangent: false, ..settings };
         let mut found = self.solve_from(starts.clone(), &laws, load, complete);
         if let Err(Failure::Unconverged(first)) = &mut found
-            && self.may_lag(viscosity)
+            && may_lag(self.problem, viscosity)
         {
             let tried = std::mem::take(&mut first.iterations);
-            self.lags = !self.lags;
-            found = self.solve_from(starts, &Laws { lags: self.lags, ..laws }, load, complete);
+            self.search.lags = !self.search.lags;
+            found = self.solve_from(starts, &Laws { lags: self.search.lags, ..laws }, load, complete);
             match &mut found {
                 Ok(found) => found.wasted = tried,
                 Err(Failure::Unconverged(why)) => why.iterations += tried,
@@ -305,31 +220,39 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         found
     }
 
-    fn estimate(&mut self, state: &State, found: &Found, way: Way) -> Option<Estimate> {
-        self.estimate_part(state, found, way)
+    fn estimate(&mut self, state: &State, found: &Converged, way: Way) -> Option<Estimate> {
+        estimate::error_of(&self.view()?, &state.snapshot.states, found, way)
     }
 
-    fn is_reached(&mut self, state: &State, found: &Found, end: &Load) -> bool {
-        self.late_points_crack(state, found, end).unwrap_or(false)
+    fn is_reached(&mut self, state: &State, found: &Converged, end: &Load) -> bool {
+        let settings = self.settings;
+        let reached = self
+            .view_mut()
+            .and_then(|mut view| late::crack(&mut view, &state.snapshot.states, found, end, settings));
+        reached.unwrap_or(false)
     }
 
     fn onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64> {
-        self.first_onset(state, load, now, ahead)
+        let end = if ahead > 0.0 { Some(self.onwards(ahead)) } else { None };
+        let settings = self.settings;
+        late::first_onset(&mut self.view_mut()?, &state.snapshot.states, [load, now], end, settings)
     }
 
     fn imbalance(&self, state: &State, load: &Load) -> f64 {
-        self.out_of_balance(state, load).unwrap_or(f64::INFINITY)
+        self.view()
+            .and_then(|view| estimate::imbalance(&view, &state.snapshot, load))
+            .unwrap_or(f64::INFINITY)
     }
 
-    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Found, f64), Failure> {
+    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let laws = Laws::alone(self.problem, &state.snapshot.states);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
-        let from = Point { x: self.unknowns.clone(), level };
+        let from = Point { x: self.search.unknowns.clone(), level };
         let start = if path.ahead > 0.0 {
             let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
-            let x = self.unknowns.iter().zip(&self.before).map(extrapolate).collect();
+            let x = self.search.unknowns.iter().zip(&self.search.before).map(extrapolate).collect();
             Ok(Point { x, level: level + path.ahead * path.last })
         } else {
             match path.amount {
@@ -356,23 +279,30 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     fn recover(&self, load: &Load) -> Option<Solution> {
         let (_, form, _) = self.form.as_ref()?;
         let Forces { loaded, prescribed, .. } = load.forces();
-        Some(form.recover(&self.unknowns, &self.forces[0], loaded, prescribed))
+        Some(form.recover(&self.search.unknowns, &self.search.forces, loaded, prescribed))
     }
 
-    fn keep(&mut self) {
-        self.kept = [self.before.clone(), self.unknowns.clone()];
-        self.lags = false;
+    fn search(&self) -> Search {
+        self.search.clone()
     }
 
-    fn go_back(&mut self) {
-        [self.before, self.unknowns] = std::mem::take(&mut self.kept);
-        self.viscous[0].clear();
+    fn restore(&mut self, search: Search) {
+        self.search = search;
+    }
+
+    fn begin_viscous(&mut self) -> Search {
+        self.search.lags = false;
+        let mut search = self.search.clone();
+        search.viscous.clear();
+        search
     }
 
     fn accept(&mut self) {
-        self.forces.swap(0, 1);
-        self.viscous.swap(0, 1);
-        std::mem::swap(&mut self.before, &mut self.unknowns);
-        std::mem::swap(&mut self.unknowns, &mut self.found);
+        let (unknowns, forces, viscous) = &mut self.found;
+        let search = &mut self.search;
+        std::mem::swap(&mut search.forces, forces);
+        std::mem::swap(&mut search.viscous, viscous);
+        std::mem::swap(&mut search.before, &mut search.unknowns);
+        std::mem::swap(&mut search.unknowns, unknowns);
     }
 }

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeSet;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Result;
 use crate::history::memory;
 use crate::law::Law;
 use crate::problem::Problem;
 use crate::scene::Strategy;
-use crate::solver::Continuum;
+use crate::solver::{Continuum, Method};
 
 /// Iterations of an increment, for the estimate.
 const ITERATIONS: f64 = 4.0;
@@ -16,8 +18,8 @@ const ITERATIONS: f64 = 4.0;
 const SPARSE: f64 = 3.0;
 
 /// Multiplications and additions that a run takes, estimated before it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Operations {
     /// On the jumps of the joints.
     pub condensed: f64,
     /// On these and the motions of the bodies, by blocks.
@@ -52,7 +54,7 @@ pub(in crate::history) fn choose(
     continuum: &Continuum,
     asked: &[usize],
     available: Option<u64>,
-) -> Result<(Strategy, Estimate)> {
+) -> Result<(Method, Operations)> {
     let (model, dofs) = (&problem.model, problem.model.dofs());
     let border = continuum.border() as f64;
     let coefficients = asked.iter().map(|&k| model.joints[k].size()).sum::<usize>() as f64;
@@ -65,7 +67,7 @@ pub(in crate::history) fn choose(
         let border = continuum.border_of(b).len() as f64;
         2.3 * border.powi(3) // its factor, and flexibilities of as many unknowns
     };
-    let estimate = Estimate {
+    let estimate = Operations {
         condensed: continuum.operations()
             + sets * (base + 2.0 * coefficients.powi(3))
             + iterations * 2.0 / 3.0 * coefficients.powi(3),
@@ -77,24 +79,26 @@ pub(in crate::history) fn choose(
     let dense = continuum.border().pow(2) + 5 * (coefficients as usize).pow(2);
     let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
     let fits = available.is_none_or(|available| needed <= available);
-    let strategy = match problem.solution.strategy {
-        Strategy::Auto if asked.is_empty() => Strategy::Condensed,
+    let method = match problem.solution.strategy {
+        Strategy::Auto if asked.is_empty() => Method::Condensed,
         Strategy::Auto => {
             let stiff = asked.iter().any(|&k| problem.stiff[k]);
             let condensed = if fits { estimate.condensed } else { f64::INFINITY };
             let plain = if stiff { f64::INFINITY } else { estimate.plain };
             match estimate.blocks {
-                blocks if condensed <= blocks && condensed <= plain => Strategy::Condensed,
-                blocks if blocks <= plain => Strategy::Blocks,
-                _ => Strategy::Plain,
+                blocks if condensed <= blocks && condensed <= plain => Method::Condensed,
+                blocks if blocks <= plain => Method::Blocks,
+                _ => Method::Plain,
             }
         }
-        strategy => strategy,
+        Strategy::Condensed => Method::Condensed,
+        Strategy::Blocks => Method::Blocks,
+        Strategy::Plain => Method::Plain,
     };
-    if strategy == Strategy::Condensed {
+    if method == Method::Condensed {
         memory::refuse(dofs, continuum.entries(), needed, available)?;
     }
-    Ok((strategy, estimate))
+    Ok((method, estimate))
 }
 
 /// Work of an LU of the joints' unknowns, joint by joint in the order of least degree: those of one body are all connected.

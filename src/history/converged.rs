@@ -1,0 +1,48 @@
+//! An increment that converged, as it comes from the search.
+
+use super::loading::Ledger;
+use crate::law;
+use crate::solver::Solution;
+
+/// A joint whose jumps are unknowns, after an increment that converged.
+#[derive(Debug, Clone)]
+pub(in crate::history) struct InterfaceResponse {
+    /// Its number.
+    pub(in crate::history) joint: usize,
+    /// Jump (n, t) at the law points.
+    pub(in crate::history) jumps: Vec<[f64; 2]>,
+    /// What the laws answered at its law points.
+    pub(in crate::history) memory: Vec<PointResponse>,
+}
+
+/// What a law point remembers of an answer.
+#[derive(Debug, Clone, Default)]
+pub(in crate::history) struct PointResponse {
+    pub(in crate::history) state: law::State,
+    /// Energy dissipated in the increment per area, and its derivative by the jump.
+    pub(in crate::history) dissipation: f64,
+    pub(in crate::history) gradient: [f64; 2],
+    /// Elastic energy lost at once in the increment per area.
+    pub(in crate::history) released: f64,
+    /// Viscous traction at its end.
+    pub(in crate::history) viscous: [f64; 2],
+}
+
+/// An increment that converged.
+#[derive(Debug, Clone)]
+pub(in crate::history) struct Converged {
+    /// Displacements and reactions, if they were recovered.
+    pub(in crate::history) solution: Option<Solution>,
+    /// What stands for them otherwise.
+    pub(in crate::history) ledger: Option<Ledger>,
+    /// Joints whose jumps are unknowns.
+    pub(in crate::history) joints: Vec<InterfaceResponse>,
+    /// Viscous work [force × length].
+    pub(in crate::history) released: f64,
+    /// Bend of the tractions of joints that dilate in a viscous step: their mean less Simpson's, √(Σ w |Δt|²).
+    pub(in crate::history) bend: f64,
+    pub(in crate::history) iterations: usize,
+    /// Iterations of a search before that found nothing.
+    pub(in crate::history) wasted: usize,
+    pub(in crate::history) residuals: Vec<f64>,
+}

@@ -1,0 +1,91 @@
+//! Points of softening laws that crack in a part after others, and the first that does.
+
+use super::ON;
+use super::laws::Laws;
+use super::view::{ViewMut, target};
+use crate::history::converged::Converged;
+use crate::history::loading::Load;
+use crate::law;
+use crate::problem::Problem;
+use crate::solver::{Form, Settings};
+
+/// Intact points of softening laws that crack in a part after others do; none if all crack at once.
+pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged) -> Option<Vec<Vec<bool>>> {
+    let mut fractions: Vec<Vec<f64>> = old.iter().map(|states| vec![f64::NAN; states.len()]).collect();
+    let mut first = 1.0_f64;
+    for of in &found.joints {
+        let law = &problem.laws[of.joint].0;
+        for (p, (old, new)) in old[of.joint].iter().zip(&of.memory).enumerate() {
+            if new.dissipation > 0.0
+                && let Some(fraction) = law.onset_or_on(new.state.jump, old)
+            {
+                fractions[of.joint][p] = fraction;
+                first = first.min(fraction);
+            }
+        }
+    }
+    let late = |fraction: &f64| *fraction > first + ON;
+    let any = fractions.iter().flatten().any(late);
+    any.then(|| fractions.iter().map(|of| of.iter().map(late).collect()).collect())
+}
+
+/// True if points that crack late in what was found last would do so if they were held: then small parts lead there too.
+/// They are held elastic, the equilibrium is corrected once, and some of them must be beyond its strength.
+pub(super) fn crack<F: Form>(
+    view: &mut ViewMut<F>,
+    old: &[Vec<law::State>],
+    found: &Converged,
+    end: &Load,
+    settings: Settings,
+) -> Option<bool> {
+    let problem = view.problem;
+    let Some(held) = late(problem, old, found) else { return Some(true) };
+    let target = target(&*view.form, view.prepared, end).ok()?;
+    let laws = Laws { problem, old, viscosity: None, lags: false, held: Some(&held) };
+    let (form, newton) = (&mut *view.form, &mut *view.newton);
+    let here = newton.look(form, &laws, view.found).ok()?;
+    let residual = form.residual(view.found, &here.forces, &target);
+    let change = residual.iter().map(|r| -r).collect();
+    let there = newton.along(form, &laws, view.found, &target, change, settings).ok()?;
+    for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
+        let jumps = form.joints()[k].jumps_of(&coefficients);
+        for ((jump, old), held) in jumps.chunks_exact(2).zip(&old[k]).zip(&held[k]) {
+            if *held && problem.laws[k].0.onset([jump[0], jump[1]].into(), old).is_some() {
+                return Some(true);
+            }
+        }
+    }
+    Some(false)
+}
+
+/// Fraction of the way to a load at which the first intact point reaches its surface, on the way to `end` or along
+/// the tangent.
+pub(super) fn first_onset<F: Form>(
+    view: &mut ViewMut<F>,
+    old: &[Vec<law::State>],
+    [load, now]: [&Load; 2],
+    end: Option<Vec<f64>>,
+    settings: Settings,
+) -> Option<f64> {
+    let target_of = |load| target(&*view.form, view.prepared, load).ok();
+    let (target, before) = (target_of(load)?, target_of(now)?);
+    let problem = view.problem;
+    let laws = Laws::alone(problem, old);
+    let (form, newton) = (&mut *view.form, &mut *view.newton);
+    let end = match end {
+        Some(end) => end,
+        None => {
+            let change = target.iter().zip(&before).map(|(b, a)| b - a).collect();
+            newton.along(form, &laws, view.unknowns, &before, change, settings).ok()?
+        }
+    };
+    let mut first = 1.0_f64;
+    for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
+        let jumps = form.joints()[k].jumps_of(&coefficients);
+        for (jump, old) in jumps.chunks_exact(2).zip(&old[k]) {
+            let fraction = problem.laws[k].0.onset([jump[0], jump[1]].into(), old);
+            first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));
+        }
+    }
+    (first < 1.0).then_some(first)
+}

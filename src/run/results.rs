@@ -1,0 +1,96 @@
+//! The results of a run as they come: fields, a row of the history, the summary.
+
+use super::folder::Folder;
+use super::summary::{self, Balance};
+use crate::error::{Error, Result};
+use crate::history::{Clock, Increment, State, Totals};
+use crate::output::{Row, Writer};
+use crate::problem::Problem;
+use crate::scene::{Fields, Scene};
+
+/// The results of one run.
+pub(super) struct Results<'a> {
+    scene: &'a Scene,
+    name: &'a str,
+    pub(super) problem: &'a Problem,
+    folder: Folder,
+    writer: Option<Writer>,
+    /// Loads and reactions at the last increment whose displacements are known.
+    balance: Option<Balance>,
+    /// The counts up to the last increment.
+    pub(super) totals: Totals,
+    /// Number of the last increment whose fields are stored.
+    stored: usize,
+}
+
+impl<'a> Results<'a> {
+    /// Of a run that has not begun: nothing is written yet.
+    pub(super) fn new(scene: &'a Scene, name: &'a str, problem: &'a Problem, folder: Folder) -> Results<'a> {
+        let (writer, balance, totals, stored) = (None, None, Totals::default(), 0);
+        Results { scene, name, problem, folder, writer, balance, totals, stored }
+    }
+
+    /// Writes an increment. Returns its row, unless that is there already.
+    pub(super) fn write(
+        &mut self,
+        increment: &Increment,
+        state: &State,
+        totals: &Totals,
+    ) -> Result<Option<Row>> {
+        let (problem, fields) = (self.problem, self.scene.output.fields);
+        if increment.number == 0 {
+            return self.open(state).map(|()| None);
+        }
+        let Some(writer) = &mut self.writer else { return Ok(None) };
+        let wanted = match fields {
+            Fields::Every => true,
+            Fields::Step => increment.ended || increment.last,
+            Fields::Last => increment.ended || increment.last && increment.step + 1 == problem.stages.len(),
+            Fields::None => false,
+        };
+        if wanted && self.stored < increment.increment {
+            let time = increment.step as f64 + increment.load_factor;
+            writer.fields(&problem.model, &state.snapshot, increment.increment, time)?;
+            self.stored = increment.increment;
+        }
+        if !state.force.is_empty() {
+            self.balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+        }
+        self.totals = totals.clone();
+        if increment.ended {
+            return Ok(None); // its row is written
+        }
+        let row = Row {
+            step: increment.stage.name.clone(),
+            increment: increment.increment,
+            load_factor: increment.load_factor,
+            iterations: increment.iterations,
+            residual: state.residual,
+            energy_balance: state.energy_balance(),
+            values: state.probes(problem),
+        };
+        writer.row(&row)?;
+        Ok(Some(row))
+    }
+
+    /// The first factor stands: a run that is refused before leaves the last results in place.
+    fn open(&mut self, state: &State) -> Result<()> {
+        self.folder.keep();
+        let model = &self.problem.model;
+        let mut writer = Writer::create(self.folder.path(), self.name, &self.problem.columns())?;
+        writer.midplanes(model)?;
+        if matches!(self.scene.output.fields, Fields::Every | Fields::Step) {
+            writer.fields(model, &state.snapshot, 0, 0.0)?;
+        }
+        self.writer = Some(writer);
+        Ok(())
+    }
+
+    /// Writes the summary if there is an increment.
+    pub(super) fn summary(&self, clock: &Clock, end: Option<&Error>) -> Result<()> {
+        let (Some(writer), Some(balance)) = (&self.writer, &self.balance) else { return Ok(()) };
+        let end = end.map(Error::to_string);
+        let Results { scene, name, problem, totals, .. } = self;
+        writer.summary(&summary::summary(scene, name, problem, totals, balance.clone(), clock, end))
+    }
+}

@@ -1,0 +1,99 @@
+//! Claim: a history that goes on from a checkpoint, through bytes and with factors made anew, gives what the history that was
+//! not interrupted gives: the same bits where laws are not elastic, 1e-12 of the largest where a scene is linear.
+
+mod common;
+
+use common::*;
+use midplane::history::{Checkpoint, Clock, Equations, History, Means, State};
+use midplane::mesh::Mesh;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+const CRACKING: &str = r#""type": "cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,
+    "fracture_energy_i": 2e-4, "fracture_energy_iia": 2e-3, "dilatancy_stress": 0"#;
+
+fn problem(law: &str, control: &str, strategy: &str, fields: &str) -> Problem {
+    let text = format!(
+        r#"{{"plane": "strain",
+        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
+        "materials": {{"m": {{"young": 1e4, "poisson": 0.2}}}},
+        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom",
+            "law": {{"normal_stiffness": 1e6, "tangential_stiffness": 1e6, {law}}}}}}},
+        "solution": {{"strategy": "{strategy}"}},
+        "steps": [
+            {{"name": "press", "fix": {{"lower.bottom": ["x", "y"]}}, "load": {{"upper.top": {{"pressure": 2}}}}}},
+            {{"name": "shear", "increments": 6, "control": "{control}", "displace": {{"upper.top": {{"x": 4e-4}}}}}},
+            {{"name": "let go", "increments": 3, "release": {{"upper.top": ["x"]}}}}],
+        "output": {{"fields": "{fields}", "history": {{"x": "upper.top.displacement_x", "t": "joint.traction_t@0.5"}}}}}}"#
+    );
+    bind(&text, blocks()).unwrap()
+}
+
+fn blocks() -> Vec<Mesh> {
+    let block = |n: usize, y: f64| {
+        rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    vec![block(5, -0.2), block(4, 0.0)]
+}
+
+/// Everything that an increment shows.
+fn shown(problem: &Problem, state: &State, iterations: usize) -> Vec<f64> {
+    let energies = [state.stored, state.dissipated, state.work, state.released, state.residual];
+    let mut all = [vec![iterations as f64], energies.to_vec(), state.probes(problem)].concat();
+    all.extend(&state.snapshot.u);
+    all.extend(&state.reactions);
+    all.extend(state.snapshot.tractions.concat().as_flattened());
+    all.extend(state.snapshot.jumps.concat().as_flattened());
+    all
+}
+
+fn through_bytes(checkpoint: &Checkpoint) -> Checkpoint {
+    let mut bytes = Vec::new();
+    ciborium::into_writer(checkpoint, &mut bytes).unwrap();
+    ciborium::from_reader(bytes.as_slice()).unwrap()
+}
+
+#[test]
+fn an_interrupted_history_goes_on_as_if_it_had_not_been() {
+    let elastic = r#""type": "elastic""#;
+    let coulomb = r#""type": "coulomb", "friction_coefficient": 0.5"#;
+    let cases = [
+        (CRACKING, "load", "condensed", "every", 0.0),
+        (CRACKING, "load", "blocks", "step", 0.0),
+        (CRACKING, "auto", "condensed", "every", 0.0),
+        (CRACKING, "arclength", "plain", "every", 0.0),
+        (coulomb, "load", "condensed", "step", 0.0),
+        (coulomb, "load", "plain", "last", 0.0),
+        (elastic, "load", "auto", "every", 1e-12),
+        (elastic, "load", "condensed", "step", 1e-12),
+    ];
+    for (law, control, strategy, fields, tolerance) in cases {
+        let what = format!("{law} {control} {strategy} {fields}");
+        let problem = problem(law, control, strategy, fields);
+        let mut clock = Clock::new("test");
+        let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
+        let mut history = History::new(&problem, &equations, clock.clone());
+        let (mut rows, mut checkpoints) = (Vec::new(), Vec::new());
+        while let Some(increment) = history.next().unwrap() {
+            rows.push(shown(&problem, history.state(), increment.iterations));
+            checkpoints.push(history.checkpoint());
+        }
+        assert!(rows.len() >= 11, "{what}: {} rows", rows.len());
+        for (k, checkpoint) in checkpoints.iter().enumerate() {
+            let kept = through_bytes(checkpoint);
+            let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
+            let mut history = History::resume(&problem, &equations, clock.clone(), kept).unwrap();
+            for (i, row) in rows.iter().enumerate().skip(k + 1) {
+                let increment = history.next().unwrap().unwrap();
+                let again = shown(&problem, history.state(), increment.iterations);
+                assert_eq!(row.len(), again.len(), "{what}, row {i} from {k}");
+                let largest = row.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                for (a, b) in row.iter().zip(&again) {
+                    let same = if tolerance == 0.0 { a == b } else { (a - b).abs() <= tolerance * largest };
+                    assert!(same, "{what}, row {i} from {k}: {a:e} and {b:e}");
+                }
+            }
+            assert!(history.next().unwrap().is_none(), "{what} from {k}");
+        }
+    }
+}
