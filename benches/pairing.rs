@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use indexmap::IndexMap;
-use midplane::coupling::{Coupling, Gap, Kind, Midplane, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme, Side, join};
 use midplane::mesh::{Cells, Edge, Group, Mesh, touching};
 use midplane::shape::Shape;
 
@@ -37,7 +37,7 @@ fn measure(name: &str, n: usize, closed: bool, at: &dyn Fn(f64, f64) -> [f64; 2]
         [Side { name: "side", points: &sides[i].0, edges: &sides[i].1, corners: &[usize::MAX], first }]
     };
     let (a, b) = (side(0, 0), side(1, n + 1));
-    let (seconds, midplane) = least(|| Midplane::build("joint", &a, &b, Gap::Closed));
+    let (seconds, midplane) = least(|| join("joint", &a, &b, Gap::Closed));
     let segments = midplane.map_or(0, |midplane| midplane.segments.len());
     println!("    {name:<10} pairing          {seconds:8.3} s, {segments} segments");
     let (seconds, _) = least(|| Coupling::build("joint", &a, &b, SCHEME));

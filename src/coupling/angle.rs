@@ -10,7 +10,7 @@
 //! derivative on a curved quadratic one. Between its nodes an edge interpolates the angles. At a kink every edge keeps an
 //! end angle of its own.
 
-use super::chain::Corner;
+use super::link::Corner;
 use super::{Chain, vector::*};
 
 /// A kink turns by more than this times what its neighbours turn by on average ...

@@ -4,26 +4,10 @@
 //!   ends   0 ──── 1 ─────── 2 ── 3        with mid-nodes on quadratic edges
 //! ```
 
-use super::link::{self, Body, Link};
+use super::link::{self, Body, Corner, Link, Side};
 use super::vector::*;
 use crate::error::Result;
-use crate::mesh::Edge;
 use crate::shape::{lagrange2, lagrange3};
-
-/// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
-#[derive(Debug, Clone, Copy)]
-pub struct Side<'a> {
-    /// How messages call it, such as `lower.top`.
-    pub name: &'a str,
-    /// Coordinates of its mesh.
-    pub points: &'a [[f64; 2]],
-    /// The edges in any order.
-    pub edges: &'a [Edge],
-    /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
-    pub corners: &'a [usize],
-    /// What the coupling adds to the node numbers of the mesh: the first node of its body in the model.
-    pub first: usize,
-}
 
 /// The edges of a side in order, run after run.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,17 +33,6 @@ pub struct Run {
     pub edges: std::ops::Range<usize>,
     /// True if the last edge ends where the first one starts.
     pub closed: bool,
-}
-
-/// What is known about a node of a side.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Corner {
-    /// It lies on a point of the geometry.
-    Yes,
-    /// It does not.
-    No,
-    /// The mesh does not tell.
-    Unknown,
 }
 
 impl Chain {
@@ -194,14 +167,10 @@ impl Chain {
     }
 }
 
-/// Names of the curves of a side, for messages.
-pub(super) fn names(curves: &[Side]) -> String {
-    curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Edge;
 
     const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]];
 

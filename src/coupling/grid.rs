@@ -4,7 +4,7 @@
 //! each side, so there are at most min(edges A, edges B) cells. The walk starts where the first edges are longer, so
 //! that neither labels nor file order matter; on a tie at the end with smaller x, then y.
 
-use super::midplane::Piece;
+use super::segment::Piece;
 use super::{Midplane, vector::*};
 
 /// "After" means farther than this. Of the length of the piece.

@@ -18,7 +18,8 @@
 //! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
-use super::midplane::{Midplane, Segment, Spot};
+use super::midplane::{Midplane, Spot};
+use super::segment::Segment;
 use super::{Chain, vector::*};
 
 /// Faces closer than this coincide. Of the common length.

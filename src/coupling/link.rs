@@ -1,9 +1,34 @@
 //! The edges of a side on their way into a chain: in the order of their start nodes, so that what follows what is found
 //! by search.
 
-use super::chain::{Corner, Side, names};
 use crate::error::{Error, Result};
 use crate::mesh::Edge;
+
+/// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
+#[derive(Debug, Clone, Copy)]
+pub struct Side<'a> {
+    /// How messages call it, such as `lower.top`.
+    pub name: &'a str,
+    /// Coordinates of its mesh.
+    pub points: &'a [[f64; 2]],
+    /// The edges in any order.
+    pub edges: &'a [Edge],
+    /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
+    pub corners: &'a [usize],
+    /// What the coupling adds to the node numbers of the mesh: the first node of its body in the model.
+    pub first: usize,
+}
+
+/// What is known about a node of a side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Corner {
+    /// It lies on a point of the geometry.
+    Yes,
+    /// It does not.
+    No,
+    /// The mesh does not tell.
+    Unknown,
+}
 
 /// An edge on its way into a chain.
 pub(super) struct Link {
@@ -67,6 +92,11 @@ pub(super) fn next(links: &[Link], i: usize) -> usize {
         1.. if starts(i - 1) => i - 1,
         _ => links.binary_search_by_key(&end, |link| link.start).unwrap_or(links.len()),
     }
+}
+
+/// Names of the curves of a side, for messages.
+pub(super) fn names(curves: &[Side]) -> String {
+    curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ")
 }
 
 impl Link {

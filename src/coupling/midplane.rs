@@ -4,10 +4,10 @@
 //! place ξ_A, ξ_B on both. The point of C lies half-way between the two; the normal is that of both sides' mean
 //! direction. Arc length s counts the segments of all pieces, one after the other, and is linear in η within each.
 
+use super::Chain;
 use super::angle::Angles;
+use super::segment::{Piece, Segment};
 use super::vector::*;
-use super::{Chain, Gap, Side, parts};
-use crate::error::Result;
 use crate::shape::GAUSS_3;
 
 /// The mid-plane of two sides.
@@ -36,34 +36,6 @@ pub struct Midplane {
     pub(super) angles: [Angles; 2],
 }
 
-/// A part of C with its parents.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Segment {
-    /// Arc length of its start [length].
-    pub start: f64,
-    /// Arc length of its end [length].
-    pub end: f64,
-    /// Parent edge on chain A.
-    pub edge_a: usize,
-    /// Parent edge on chain B.
-    pub edge_b: usize,
-    /// ξ on A's edge at start and end; ±1 at its nodes, exactly.
-    pub xi_a: [f64; 2],
-    /// ξ on B's edge at start and end.
-    pub xi_b: [f64; 2],
-}
-
-/// Segments that follow each other without a kink of C or a gap in either side.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
-    /// Numbers of its segments.
-    pub segments: std::ops::Range<usize>,
-    /// True if it ends where it starts.
-    pub closed: bool,
-    /// True if it starts where the piece before it ends.
-    pub follows: bool,
-}
-
 /// A place on C.
 #[derive(Debug, Clone, Copy)]
 pub struct Spot {
@@ -82,11 +54,6 @@ pub struct Spot {
 }
 
 impl Midplane {
-    /// Orders the sides, finds what faces what, and cuts C.
-    pub fn build(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Midplane> {
-        parts::join(name, side_a, side_b, gap)
-    }
-
     /// The place η of a segment, −1 at its start and 1 at its end.
     pub fn spot(&self, segment: usize, eta: f64) -> Spot {
         let g = &self.segments[segment];

@@ -28,11 +28,15 @@ mod pointwise;
 mod projected;
 mod refusal;
 mod seam;
+mod segment;
 mod vector;
 mod view;
 
-pub use chain::{Chain, Run, Side};
-pub use midplane::{Midplane, Piece, Segment, Spot};
+pub use chain::{Chain, Run};
+pub use link::Side;
+pub use midplane::{Midplane, Spot};
+pub use parts::join;
+pub use segment::{Piece, Segment};
 pub use view::Share;
 
 use crate::error::Result;
@@ -121,7 +125,7 @@ impl Coupling {
     ///
     /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
     pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
-        let midplane = Midplane::build(name, a, b, scheme.gap)?;
+        let midplane = join(name, a, b, scheme.gap)?;
         Ok(match scheme.kind {
             Kind::Projected => projected::build(midplane, scheme.points, true),
             Kind::ProjectedLinear => projected::build(midplane, scheme.points, false),

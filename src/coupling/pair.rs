@@ -10,7 +10,7 @@
 //! in one order. Two lines are walked together from where one of them starts: linear in their edges.
 
 use super::angle::{Angles, Line};
-use super::midplane::Segment;
+use super::segment::{Place, Segment};
 use super::{Chain, vector::*};
 
 /// Places are found to within this. Of the distance within which nodes are one, so that rounding is all that is left.
@@ -21,13 +21,6 @@ const FINE: f64 = 1e-3;
 pub(super) struct Face<'a> {
     pub chain: &'a Chain,
     pub angles: &'a Angles,
-}
-
-/// A place on a line: number of the edge in the line, ξ on it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
-    pub i: usize,
-    pub xi: f64,
 }
 
 /// Point and unit tangent of a place.

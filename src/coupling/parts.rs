@@ -6,14 +6,12 @@
 
 use super::angle::Angles;
 use super::link::Body;
-use super::midplane::{Piece, Segment};
-use super::pair::{Face, Place, starts, walk};
+use super::pair::{Face, starts, walk};
+use super::segment::{FACING, Part, Piece, Place, Segment};
 use super::vector::*;
 use super::{Chain, Gap, Midplane, Side, refusal, seam};
 use crate::error::Result;
 
-/// Faces without a gap may lie this far apart, beyond what chords of one curve do. Of the shorter line.
-pub(super) const FACING: f64 = 1e-3;
 /// Faces with a gap may lie this far apart. Of the shorter line.
 const OPEN: f64 = 0.25;
 /// A common part shorter than this is a touching point. Of the shorter line.
@@ -25,25 +23,8 @@ const SLIVER: f64 = 1e-13;
 /// Nodes closer than this many units in the last place of their coordinates are one.
 const ROUNDING: f64 = 4.0;
 
-/// A common part of two lines.
-pub(super) struct Part {
-    pub segments: Vec<Segment>,
-    /// Place in the order along A.
-    order: (usize, Place),
-    closed: bool,
-    pub length: f64,
-    /// Smallest and largest distance along n.
-    pub gap: [f64; 2],
-    /// Largest distance beyond what chords of one curve differ by.
-    apart: f64,
-    /// The worst place: by how much its distance exceeds what is allowed, the distance, and where.
-    pub worst: (f64, f64, [f64; 2]),
-    /// True if the sides lie on each other somewhere.
-    touches: bool,
-}
-
-/// Builds the mid-plane.
-pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Midplane> {
+/// The mid-plane of two sides: orders their edges, finds what faces what, and cuts C. `name` is the interface's, for messages.
+pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Midplane> {
     let sides = [side_a, side_b];
     let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
     let origin = edge.unwrap_or_default();
@@ -71,7 +52,11 @@ pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Re
     };
     let (near, far): (Vec<Part>, Vec<Part>) = parts(&mut c, gap).into_iter().partition(|part| part.touches);
     if near.is_empty() {
-        return Err(refusal::nothing_common(name, sides, &c, &far));
+        return Err(match far.iter().max_by(|p, q| p.length.total_cmp(&q.length)) {
+            Some(part) => refusal::apart(name, sides, part),
+            None if bodies_on_one_side(&c) => refusal::same_side(name, sides),
+            None => refusal::nothing_common(name, sides, &c),
+        });
     }
     if let Some(part) = near.iter().find(|part| part.worst.0 > 0.0 || part.worst.0.is_nan()) {
         return Err(refusal::apart(name, sides, part));
@@ -90,8 +75,16 @@ pub(super) fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Re
     Ok(c)
 }
 
+/// True if the sides would have common parts if one of them were turned.
+fn bodies_on_one_side(c: &Midplane) -> bool {
+    let mut turned = c.clone();
+    turned.b = turned.b.reversed();
+    turned.angles[1] = Angles::new(&turned.b);
+    parts(&mut turned, Gap::Open).iter().any(|part| part.length > part.gap[1].max(-part.gap[0]))
+}
+
 /// All common parts of all lines, whatever their gap.
-pub(super) fn parts(c: &mut Midplane, gap: Gap) -> Vec<Part> {
+fn parts(c: &mut Midplane, gap: Gap) -> Vec<Part> {
     let lines = [0, 1].map(|side| c.angles[side].lines.clone());
     let length = |chain: &Chain, edges: &[usize]| edges.iter().map(|&e| chain.chord(e)).sum::<f64>();
     let lengths_b: Vec<f64> = lines[1].iter().map(|line| length(&c.b, &line.edges)).collect();

@@ -1,10 +1,10 @@
 //! Sides that cannot be joined: what is wrong, where, and what to do.
 
 use super::angle::Angles;
-use super::chain::names;
-use super::parts::{FACING, Part, parts};
+use super::link::names;
+use super::segment::{FACING, Part};
 use super::vector::*;
-use super::{Gap, Midplane, Side};
+use super::{Midplane, Side};
 use crate::error::Error;
 
 const FACE: &str = "turn or move one of the parts, so that the curves lie on each other";
@@ -33,18 +33,14 @@ pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &Part) -> Error {
     refuse(name, what, &cure)
 }
 
-/// No part lies on the other side: too far apart, on the wrong side, or beside each other.
-pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane, far: &[Part]) -> Error {
-    if let Some(part) = far.iter().max_by(|p, q| p.length.total_cmp(&q.length)) {
-        return apart(name, sides, part);
-    }
-    let mut turned = c.clone();
-    turned.b = turned.b.reversed();
-    turned.angles[1] = Angles::new(&turned.b);
-    if parts(&mut turned, Gap::Open).iter().any(|part| part.length > part.gap[1].max(-part.gap[0])) {
-        let what = format!("{} do not face each other: their bodies lie on the same side", both(sides));
-        return refuse(name, what, FACE);
-    }
+/// The sides face the same way.
+pub(super) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
+    let what = format!("{} do not face each other: their bodies lie on the same side", both(sides));
+    refuse(name, what, FACE)
+}
+
+/// No part lies on the other side: the sides lie beside each other.
+pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> Error {
     // the lines start and end where the sides come closest
     let ends = |chain: &super::Chain, angles: &Angles| -> Vec<[f64; 2]> {
         let of_line = |line: &super::angle::Line| {

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::{vtu, writer};
+use super::{pvd, vtu};
 use crate::error::{Error, Result};
 
 /// Removes the results of earlier runs in a folder, whatever the name of their scene.
@@ -11,7 +11,7 @@ pub(super) fn remove_results(folder: &Path) -> Result<()> {
     for file in ["history.csv", "summary.json"] {
         remove(folder.join(file))?;
     }
-    remove_written(folder, "pvd", writer::COLLECTION)?;
+    remove_written(folder, "pvd", pvd::HEAD)?;
     for sub in ["fields", "midplane"] {
         remove_grids(&folder.join(sub))?;
     }

@@ -6,6 +6,7 @@ mod earlier;
 mod fields;
 mod files;
 mod geometry;
+mod pvd;
 mod vtu;
 mod writer;
 

@@ -6,14 +6,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Snapshot, earlier, fields, files};
+use super::{Snapshot, earlier, fields, files, pvd};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
-
-/// The beginning of every collection.
-pub(super) const COLLECTION: &str = "<?xml version=\"1.0\"?>\n\
-    <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
-    <Collection>\n";
 
 /// Writes one run's results as they come.
 #[derive(Debug)]
@@ -83,13 +78,8 @@ impl Writer {
         for name in names {
             self.collection.push((time, name.clone(), file_name(name, number)));
         }
-        let mut pvd = String::from(COLLECTION);
-        for (time, part, file) in &self.collection {
-            let _ =
-                writeln!(pvd, "<DataSet timestep=\"{time}\" name=\"{part}\" part=\"0\" file=\"{file}\"/>");
-        }
-        pvd.push_str("</Collection>\n</VTKFile>\n");
-        files::write_whole(&self.folder.join(format!("{}.pvd", self.name)), pvd.as_bytes())
+        let text = pvd::collection(&self.collection);
+        files::write_whole(&self.folder.join(format!("{}.pvd", self.name)), text.as_bytes())
     }
 
     /// Adds a row to the history.

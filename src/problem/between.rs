@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use wildmatch::WildMatch;
 
-use super::plan::{Curve, Plan};
+use super::curve::{Curve, Plan};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::mesh::{Edge, Mesh, touching};

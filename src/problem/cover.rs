@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::plan::Plan;
+use super::curve::Plan;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
 use crate::scene::Scene;

@@ -2,8 +2,8 @@
 
 use std::collections::HashSet;
 
+use super::curve::Plan;
 use super::history::given;
-use super::plan::Plan;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
 use crate::law::Law;

@@ -3,6 +3,7 @@
 mod along;
 mod between;
 mod cover;
+mod curve;
 mod gap;
 mod groups;
 mod history;

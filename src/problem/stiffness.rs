@@ -1,6 +1,6 @@
 //! The stiffness number K_N h/E of a joint: what its springs are against the continuum beside them.
 
-use super::plan::Plan;
+use super::curve::Plan;
 use crate::assembly::{Joint, Model};
 use crate::error::Result;
 use crate::law::Law;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::between::Taken;
-use super::plan::Plan;
+use super::curve::Plan;
 use crate::assembly::{Body, Model};
 use crate::error::{Code, Result, Warning};
 use crate::mesh::{Edge, Mesh, Pieces, Touch, coinciding};

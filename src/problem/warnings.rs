@@ -1,6 +1,6 @@
 //! What the user should know of a joint before believing the result.
 
-use super::plan::Plan;
+use super::curve::Plan;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
 use crate::assembly::{Body, Joint, Model};
 use crate::error::{Code, Warning};

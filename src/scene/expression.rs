@@ -4,93 +4,14 @@
 //! Names are `x`, `y` (place), `s` (0…1 along the group), `load_factor` (0…1 within the step), `pi`, `e`, and functions.
 
 use super::grammar;
-
-/// Values that an expression may have to remember at once.
-const STACK: usize = 32;
-
-/// Where and when a number of the scene is asked for.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Place {
-    /// Coordinate [length].
-    pub x: f64,
-    /// Coordinate [length].
-    pub y: f64,
-    /// Fraction of the arc length along the group, 0 to 1.
-    pub s: f64,
-    /// Load level within the step, 0 to 1.
-    pub load_factor: f64,
-}
-
-/// What an expression may depend on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Variable {
-    /// Coordinate x.
-    X,
-    /// Coordinate y.
-    Y,
-    /// Fraction of the arc length along the group.
-    S,
-    /// Load level within the step.
-    LoadFactor,
-}
+pub use super::op::{Fault, Place, Variable};
+use super::op::{Op, STACK, evaluate};
 
 /// A compiled formula.
 #[derive(Debug, Clone)]
 pub struct Expression {
     text: String,
     code: Vec<Op>,
-}
-
-/// Why a text is no expression, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
-    /// Bytes of the text that are wrong.
-    pub span: std::ops::Range<usize>,
-    /// What is wrong, with its position and the text around it.
-    pub what: String,
-    /// What would have been right.
-    pub cure: String,
-}
-
-/// One instruction: takes its operands from the stack and leaves its result there.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Op {
-    Number(f64),
-    Variable(Variable),
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    One(fn(f64) -> f64),
-    Two(fn(f64, f64) -> f64),
-    Three(fn(f64, f64, f64) -> f64),
-}
-
-impl Op {
-    /// Number of operands.
-    pub(super) fn takes(&self) -> usize {
-        match self {
-            Op::Number(_) | Op::Variable(_) => 0,
-            Op::One(_) => 1,
-            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(_) => 2,
-            Op::Three(_) => 3,
-        }
-    }
-}
-
-impl Variable {
-    /// All of them.
-    pub const ALL: [Variable; 4] = [Variable::X, Variable::Y, Variable::S, Variable::LoadFactor];
-
-    /// Its name in a formula.
-    pub fn name(self) -> &'static str {
-        match self {
-            Variable::X => "x",
-            Variable::Y => "y",
-            Variable::S => "s",
-            Variable::LoadFactor => "load_factor",
-        }
-    }
 }
 
 impl Expression {
@@ -144,32 +65,6 @@ impl PartialEq for Expression {
     fn eq(&self, other: &Expression) -> bool {
         self.text == other.text
     }
-}
-
-/// Runs postfix code, whose need of stack was checked when it was compiled.
-pub(super) fn evaluate(code: &[Op], place: &Place) -> f64 {
-    let mut stack = [0.0; STACK];
-    let mut height = 0;
-    for op in code {
-        height -= op.takes();
-        let a = stack[height];
-        stack[height] = match *op {
-            Op::Number(value) => value,
-            Op::Variable(Variable::X) => place.x,
-            Op::Variable(Variable::Y) => place.y,
-            Op::Variable(Variable::S) => place.s,
-            Op::Variable(Variable::LoadFactor) => place.load_factor,
-            Op::Add => a + stack[height + 1],
-            Op::Subtract => a - stack[height + 1],
-            Op::Multiply => a * stack[height + 1],
-            Op::Divide => a / stack[height + 1],
-            Op::One(f) => f(a),
-            Op::Two(f) => f(a, stack[height + 1]),
-            Op::Three(f) => f(a, stack[height + 1], stack[height + 2]),
-        };
-        height += 1;
-    }
-    stack[0]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Functions and comparisons of formulas. What is not a number stays so in all of them, so that it is refused.
 
-use super::expression::Op;
+use super::op::Op;
 
 /// The functions by name.
 #[rustfmt::skip]

@@ -9,8 +9,8 @@
 //! value      = number | name | function "(" comparison {"," comparison} ")" | "(" comparison ")"
 //! ```
 
-use super::expression::{Fault, Op, Place, Variable, evaluate};
 use super::functions::{COMPARISONS, FUNCTIONS};
+use super::op::{Fault, Op, Place, Variable, evaluate};
 use crate::error::name_cure;
 
 /// Longest formula [bytes].

@@ -10,6 +10,7 @@ mod functions;
 mod grammar;
 mod interface;
 mod interface_check;
+mod op;
 pub mod probe;
 mod read;
 mod schema;
@@ -19,8 +20,8 @@ mod source;
 mod value;
 
 pub use accuracy::{Accuracy, Preset};
-pub use expression::{Place, Variable};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
+pub use op::{Place, Variable};
 pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};

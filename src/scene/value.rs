@@ -5,7 +5,8 @@ use std::{fmt, sync::Arc};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use super::expression::{Expression, Place, Variable};
+use super::expression::Expression;
+use super::op::{Place, Variable};
 
 /// A number, or the text of a formula such as `"5*cos(pi*x)"`.
 #[derive(Debug, Clone, PartialEq)]

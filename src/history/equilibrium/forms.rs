@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
+use super::Make;
 use super::newton::NewtonEngine;
 use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
-use crate::solver::{Base, Blocks, Condensation, Continuum, Dual, NotPositiveDefinite, Plain, Settings};
-
-/// Factors for a set of supports; true if something was factored anew.
-pub(super) type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;
+use crate::solver::{Base, Blocks, Condensation, Continuum, Dual, Plain, Settings};
 
 /// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
 pub(super) fn bases<'a>(

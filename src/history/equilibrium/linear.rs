@@ -1,7 +1,6 @@
 //! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
 
-use super::forms::Make;
-use super::{Ahead, Engine, Estimate, Failure, Path, Search, Viscous, Way};
+use super::{Ahead, Engine, Estimate, Failure, Make, Path, Search, Viscous, Way};
 use crate::assembly::Joint;
 use crate::history::converged::{Converged, InterfaceResponse};
 use crate::history::loading::{Forces, Ledger, Load};

@@ -174,3 +174,6 @@ pub(in crate::history) struct Way<'a> {
     pub(in crate::history) middle: &'a Load<'a>,
     pub(in crate::history) step: Option<&'a [Load<'a>; 2]>,
 }
+
+/// Factors for a set of supports; true if something was factored anew.
+type Make<'a, F> = Box<dyn FnMut(&[bool]) -> Result<(F, bool), NotPositiveDefinite> + 'a>;

@@ -1,10 +1,9 @@
 //! Newton's method as the engine of a history: forms made for each set of supports, laws asked with the committed states.
 
-use super::forms::Make;
 use super::laws::{Laws, may_lag};
 use super::strategy::active;
 use super::view::{View, ViewMut, target};
-use super::{Ahead, Engine, Estimate, Failure, Path, Search, Viscous, Way, estimate, late, viscosity};
+use super::{Ahead, Engine, Estimate, Failure, Make, Path, Search, Viscous, Way, estimate, late, viscosity};
 use crate::history::converged::{Converged, InterfaceResponse, PointResponse};
 use crate::history::loading::{Forces, Ledger, Load};
 use crate::history::state::State;

@@ -1,0 +1,56 @@
+//! Segments of C, what they are cut from, and the pieces that they make.
+
+/// Faces without a gap may lie this far apart, beyond what chords of one curve do. Of the shorter line.
+pub(super) const FACING: f64 = 1e-3;
+
+/// A part of C with its parents.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Arc length of its start [length].
+    pub start: f64,
+    /// Arc length of its end [length].
+    pub end: f64,
+    /// Parent edge on chain A.
+    pub edge_a: usize,
+    /// Parent edge on chain B.
+    pub edge_b: usize,
+    /// ξ on A's edge at start and end; ±1 at its nodes, exactly.
+    pub xi_a: [f64; 2],
+    /// ξ on B's edge at start and end.
+    pub xi_b: [f64; 2],
+}
+
+/// Segments that follow each other without a kink of C or a gap in either side.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Piece {
+    /// Numbers of its segments.
+    pub segments: std::ops::Range<usize>,
+    /// True if it ends where it starts.
+    pub closed: bool,
+    /// True if it starts where the piece before it ends.
+    pub follows: bool,
+}
+
+/// A place on a line: number of the edge in the line, ξ on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub i: usize,
+    pub xi: f64,
+}
+
+/// A common part of two lines.
+pub(super) struct Part {
+    pub segments: Vec<Segment>,
+    /// Place in the order along A.
+    pub order: (usize, Place),
+    pub closed: bool,
+    pub length: f64,
+    /// Smallest and largest distance along n.
+    pub gap: [f64; 2],
+    /// Largest distance beyond what chords of one curve differ by.
+    pub apart: f64,
+    /// The worst place: by how much its distance exceeds what is allowed, the distance, and where.
+    pub worst: (f64, f64, [f64; 2]),
+    /// True if the sides lie on each other somewhere.
+    pub touches: bool,
+}

@@ -1,0 +1,93 @@
+//! An interface to be: the curves of its sides, and how they become a joint.
+
+use std::collections::HashMap;
+
+use super::groups;
+use crate::assembly::{Joint, Model};
+use crate::coupling::{Coupling, Gap, Kind, Points, Scheme, Side};
+use crate::error::Result;
+use crate::mesh::Edge;
+use crate::scene::{CouplingKind, Grid, Interface, OneOrMany, Quadrature, Scene};
+
+/// An interface to be.
+pub(super) struct Plan<'a> {
+    /// Its name in results and probes.
+    pub name: String,
+    /// Its key in the scene's `interfaces`.
+    pub entry: &'a str,
+    /// What the scene says of it.
+    pub interface: &'a Interface,
+    /// Curves of sides A and B.
+    pub sides: [Vec<Curve>; 2],
+}
+
+/// A curve of a side.
+pub(super) struct Curve {
+    /// Number of its body.
+    pub body: usize,
+    /// How messages call it.
+    pub name: String,
+    /// Its edges.
+    pub edges: Vec<Edge>,
+}
+
+/// The curves of a side; no two of them hold the same edge.
+pub(super) fn side(
+    scene: &Scene,
+    model: &Model,
+    entry: &str,
+    key: &str,
+    names: &OneOrMany,
+) -> Result<Vec<Curve>> {
+    let path = ["interfaces", entry, key];
+    let mut curves = Vec::new();
+    let mut owner: HashMap<(usize, usize, usize), &str> = HashMap::new();
+    for group in names.names() {
+        let (body, edges) = groups::curve(scene, model, &path, group)?;
+        for edge in edges {
+            if let Some(other) = owner.insert((body, edge.nodes[0], edge.nodes[1]), group) {
+                let [x, y] = model.bodies[body].mesh.points[edge.nodes[0]];
+                let what = format!("\"{other}\" and \"{group}\" hold the same edge, at ({x}, {y})");
+                return Err(scene.source.refuse(&path, what, "name every edge of a side once"));
+            }
+        }
+        curves.push(Curve { body, name: group.clone(), edges: edges.to_vec() });
+    }
+    Ok(curves)
+}
+
+impl Plan<'_> {
+    /// Builds the joint.
+    pub(super) fn join(&self, model: &Model) -> Result<Joint> {
+        let sides: [Vec<Side>; 2] = [0, 1].map(|i| {
+            let curves = self.sides[i].iter().map(|curve| {
+                let (mesh, first) = (&model.bodies[curve.body].mesh, model.bodies[curve.body].first_node);
+                let (name, edges) = (curve.name.as_str(), curve.edges.as_slice());
+                Side { name, points: &mesh.points, edges, corners: &mesh.corners, first }
+            });
+            curves.collect()
+        });
+        let quadrilaterals = || self.sides.iter().flatten().all(|curve| on_quadrilaterals(model, curve));
+        let kind = match (self.interface.coupling, self.interface.grid) {
+            (CouplingKind::Pointwise, _) => Kind::Pointwise,
+            (_, Grid::Quadratic) => Kind::Projected,
+            (_, Grid::Auto) if quadrilaterals() => Kind::Projected,
+            (_, Grid::Auto | Grid::Linear) => Kind::ProjectedLinear,
+        };
+        let points = match self.interface.quadrature {
+            Quadrature::Gauss => Points::Gauss,
+            Quadrature::Lobatto => Points::Lobatto,
+        };
+        let gap = if self.interface.initial_gap.is_some() { Gap::Open } else { Gap::Closed };
+        let coupling = Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap })?;
+        let bodies = [0, 1].map(|i| self.sides[i][0].body);
+        // the coupling's nodes are those of the model
+        Ok(Joint::new(&self.name, coupling, bodies, [0, 0], model.dofs(), model.thickness))
+    }
+}
+
+/// True if all cells along a curve are quadrilaterals.
+fn on_quadrilaterals(model: &Model, curve: &Curve) -> bool {
+    let shapes = &model.bodies[curve.body].mesh.cells.shapes;
+    curve.edges.iter().all(|edge| shapes[edge.cell].corners() == 4)
+}
