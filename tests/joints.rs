@@ -467,7 +467,7 @@ fn a_hundred_thousand_edges_a_side_are_paired_at_once() {
         let b = Curve::new(&even(0.0, 1.0, n - 1), closed, false, true, &at);
         let (side_a, side_b) = ([a.side("a", 0)], [b.side("b", n + 1)]);
         let start = Instant::now();
-        let c = midplane::coupling::Midplane::build("joint", &side_a, &side_b, Gap::Closed).unwrap();
+        let c = midplane::coupling::join("joint", &side_a, &side_b, Gap::Closed).unwrap();
         let seconds = start.elapsed().as_secs_f64();
         println!("closed {closed}: {seconds:.3} s, {} segments", c.segments.len());
         assert_eq!(c.segments.len(), 2 * n - 2);

@@ -9,7 +9,7 @@
 use nalgebra::Vector2;
 
 use super::flow::Mode;
-use super::march::{Point, Stage};
+use super::march::{Point, Stage, two_stage_step};
 use super::surface::Surface;
 
 /// Local bound per ε^{3/2}, of the strength.
@@ -70,7 +70,7 @@ impl Control {
     pub fn new(surface: &Surface, tolerance: f64, total: f64) -> Control {
         let loss = 1.0 / surface.loss(); // infinite if nothing is lost
         let length = (FIRST_LENGTH * tolerance.max(SMALLEST_TOLERANCE).sqrt() * loss).min(total);
-        let bound = surface.local_bound(tolerance);
+        let bound = local_bound(surface, tolerance);
         let strength = if bound.is_finite() { surface.scale() } else { f64::INFINITY };
         Control {
             bound,
@@ -100,15 +100,15 @@ impl Control {
                 Some((beyond, _)) => length.min(beyond),
                 None => length,
             };
-            let (whole, _) = surface.two_stage_step(from, direction * length);
-            let step = surface.in_halves(from, direction, length);
+            let (whole, _) = two_stage_step(surface, from, direction * length);
+            let step = in_halves(surface, from, direction, length);
             let misfit = (whole.traction - step.end.traction).amax();
             let strength = (whole.work - step.end.work).abs() * surface.loss();
             let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
-                + surface.rounding_near_vertex(&step.end);
+                + rounding_near_vertex(surface, &step.end);
             let ratio = misfit.max(strength) / self.bound.max(rounding);
             let change = (step.end.traction - from.traction).amax();
-            let across = surface.is_across_event(from, &step);
+            let across = is_across_event(surface, from, &step);
             if length <= self.shortest {
                 (self.length, self.event) = (GROW * length, None);
                 self.leaps += usize::from(ratio > 1.0);
@@ -132,44 +132,42 @@ impl Control {
     }
 }
 
-impl Surface {
-    /// Bound of the local error of a sub-step [stress]; without strength (Coulomb friction) one step is exact.
-    pub fn local_bound(&self, tolerance: f64) -> f64 {
-        if self.scale() == 0.0 {
-            return f64::INFINITY;
-        }
-        let tolerance = tolerance.max(SMALLEST_TOLERANCE);
-        LOCAL * tolerance * tolerance.sqrt() * self.scale()
+/// Bound of the local error of a sub-step [stress]; without strength (Coulomb friction) one step is exact.
+pub(super) fn local_bound(surface: &Surface, tolerance: f64) -> f64 {
+    if surface.scale() == 0.0 {
+        return f64::INFINITY;
     }
+    let tolerance = tolerance.max(SMALLEST_TOLERANCE);
+    LOCAL * tolerance * tolerance.sqrt() * surface.scale()
+}
 
-    /// A sub-step in halves.
-    pub fn in_halves(&self, from: &Point, direction: Vector2<f64>, length: f64) -> Double {
-        let change = direction * (0.5 * length);
-        let (middle, first) = self.two_stage_step(from, change);
-        let (end, second) = self.two_stage_step(&middle, change);
-        Double { length, stages: [first, second], end }
-    }
+/// A sub-step in halves.
+pub(super) fn in_halves(surface: &Surface, from: &Point, direction: Vector2<f64>, length: f64) -> Double {
+    let change = direction * (0.5 * length);
+    let (middle, first) = two_stage_step(surface, from, change);
+    let (end, second) = two_stage_step(surface, &middle, change);
+    Double { length, stages: [first, second], end }
+}
 
-    /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
-    /// to its root where τ vanishes.
-    fn rounding_near_vertex(&self, end: &Point) -> f64 {
-        let largest = self.scale() * (ROUNDING * self.e_chi.max(1.0 / self.e_chi)).sqrt();
-        if (1.0 - end.work * self.per_gf_i).abs() <= AT_ORIGIN {
-            return largest;
-        }
-        let tau = end.traction.y.abs();
-        if end.mode == Mode::Sliding && tau > 0.0 {
-            return largest.min(ROUNDING * self.scale() * (self.scale() / tau));
-        }
-        0.0
+/// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
+/// to its root where τ vanishes.
+fn rounding_near_vertex(surface: &Surface, end: &Point) -> f64 {
+    let largest = surface.scale() * (ROUNDING * surface.e_chi.max(1.0 / surface.e_chi)).sqrt();
+    if (1.0 - end.work * surface.per_gf_i).abs() <= AT_ORIGIN {
+        return largest;
     }
+    let tau = end.traction.y.abs();
+    if end.mode == Mode::Sliding && tau > 0.0 {
+        return largest.min(ROUNDING * surface.scale() * (surface.scale() / tau));
+    }
+    0.0
+}
 
-    /// Whether the flow changes its law within a step: another mode, or an energy used up.
-    fn is_across_event(&self, from: &Point, step: &Double) -> bool {
-        let mode = step.end.mode;
-        let used_up = |w: f64| [w * self.per_gf_i >= USED_UP, w * self.per_gf_iia >= USED_UP];
-        (from.mode != Mode::Elastic && from.mode != mode)
-            || step.stages.iter().flatten().any(|stage| stage.mode() != mode)
-            || used_up(from.work) != used_up(step.end.work)
-    }
+/// Whether the flow changes its law within a step: another mode, or an energy used up.
+fn is_across_event(surface: &Surface, from: &Point, step: &Double) -> bool {
+    let mode = step.end.mode;
+    let used_up = |w: f64| [w * surface.per_gf_i >= USED_UP, w * surface.per_gf_iia >= USED_UP];
+    (from.mode != Mode::Elastic && from.mode != mode)
+        || step.stages.iter().flatten().any(|stage| stage.mode() != mode)
+        || used_up(from.work) != used_up(step.end.work)
 }

@@ -8,6 +8,7 @@
 //! does not. The answer is the nearest point of a convex set, so that a step of a whole interface has one answer whatever
 //! the viscosity. A state that does not move lies inside the surface of the law itself.
 
+use super::march::{compliant, stiff};
 use nalgebra::{Matrix2, Vector2};
 
 use super::super::{Response, State};
@@ -95,39 +96,37 @@ impl Set {
     }
 }
 
-impl Surface {
-    /// The answer at a jump from an old state. Where the surface has shrunk under that, its traction drops first.
-    pub fn on_facet(&self, jump: Vector2<f64>, old: &State) -> Response {
-        let set = Set::new(self, old);
-        let start = set.nearest(old.traction).0;
-        let trial = old.traction + self.stiff(jump - old.jump);
-        let (traction, part) = set.nearest(trial);
-        let (dropped, plastic) = (self.compliant(old.traction - start), self.compliant(trial - traction));
-        let leaves = start + set.exit(start, trial) * (trial - start);
-        let dissipation =
-            0.5 * ((old.traction + start).dot(&dropped) + (leaves + traction).dot(&(plastic - dropped)));
-        let work = match traction.x > 0.0 {
-            true => dissipation,
-            false => (traction.y.abs() + traction.x * self.at(old.fracture_work).t) * plastic.y.abs(),
-        };
-        let mode = match part {
-            Part::Inside => Mode::Elastic,
-            _ if traction.x > 0.0 => Mode::Tension,
-            _ => Mode::Compression,
-        };
-        Response {
+/// The answer at a jump from an old state. Where the surface has shrunk under that, its traction drops first.
+pub(super) fn on_facet(surface: &Surface, jump: Vector2<f64>, old: &State) -> Response {
+    let set = Set::new(surface, old);
+    let start = set.nearest(old.traction).0;
+    let trial = old.traction + stiff(surface, jump - old.jump);
+    let (traction, part) = set.nearest(trial);
+    let (dropped, plastic) = (compliant(surface, old.traction - start), compliant(surface, trial - traction));
+    let leaves = start + set.exit(start, trial) * (trial - start);
+    let dissipation =
+        0.5 * ((old.traction + start).dot(&dropped) + (leaves + traction).dot(&(plastic - dropped)));
+    let work = match traction.x > 0.0 {
+        true => dissipation,
+        false => (traction.y.abs() + traction.x * surface.at(old.fracture_work).t) * plastic.y.abs(),
+    };
+    let mode = match part {
+        Part::Inside => Mode::Elastic,
+        _ if traction.x > 0.0 => Mode::Tension,
+        _ => Mode::Compression,
+    };
+    Response {
+        traction,
+        stiffness: set.tangent(part, 1.0_f64.copysign(trial.y)),
+        state: State {
+            jump,
             traction,
-            stiffness: set.tangent(part, 1.0_f64.copysign(trial.y)),
-            state: State {
-                jump,
-                traction,
-                jump_plastic: old.jump_plastic + plastic,
-                fracture_work: old.fracture_work + work.max(0.0),
-                status: mode as u8,
-            },
-            dissipation,
-            dissipation_gradient: Vector2::zeros(), // no path is followed in viscous steps
-            released: 0.0,
-        }
+            jump_plastic: old.jump_plastic + plastic,
+            fracture_work: old.fracture_work + work.max(0.0),
+            status: mode as u8,
+        },
+        dissipation,
+        dissipation_gradient: Vector2::zeros(), // no path is followed in viscous steps
+        released: 0.0,
     }
 }

@@ -63,88 +63,89 @@ pub(super) struct Equations {
     pub work: ByTauWork,
 }
 
-impl Surface {
-    /// Compression without dilatancy, where the normal traction ignores sliding: f ≡ 0 up to the trial point.
-    pub fn without_dilatancy(&self, sigma_trial: f64, now: &Hyperbola) -> bool {
-        now.fc == 0.0 || -sigma_trial >= self.sigma_dil
-    }
+/// Compression without dilatancy, where the normal traction ignores sliding: f ≡ 0 up to the trial point.
+pub(super) fn without_dilatancy(surface: &Surface, sigma_trial: f64, now: &Hyperbola) -> bool {
+    now.fc == 0.0 || -sigma_trial >= surface.sigma_dil
+}
 
-    /// E₁ at (τ, W) alone, as the nested solver needs it.
-    pub fn normal_equation(&self, mode: Mode, trial: &Trial, now: &Hyperbola, tau: f64) -> f64 {
-        let s = now.root(tau);
-        let sigma = now.sigma(tau, s);
-        let f = if mode == Mode::Tension { 1.0 } else { self.dilatancy(sigma).0 * now.fc };
-        tau * (sigma - trial.sigma) + self.kn / self.kt * (trial.tau - tau) * s * now.t * f
-    }
+/// E₁ at (τ, W) alone, as the nested solver needs it.
+pub(super) fn normal_equation(
+    surface: &Surface,
+    mode: Mode,
+    trial: &Trial,
+    now: &Hyperbola,
+    tau: f64,
+) -> f64 {
+    let s = now.root(tau);
+    let sigma = now.sigma(tau, s);
+    let f = if mode == Mode::Tension { 1.0 } else { surface.dilatancy(sigma).0 * now.fc };
+    tau * (sigma - trial.sigma) + surface.kn / surface.kt * (trial.tau - tau) * s * now.t * f
+}
 
-    /// The work ω of the step that ends at (σ, τ).
-    pub fn work_of_step(&self, trial: &Trial, now: &Hyperbola, mode: Mode, sigma: f64, tau: f64) -> f64 {
-        let slip = (trial.tau - tau) / self.kt;
-        match mode {
-            Mode::Tension => sigma * (trial.sigma - sigma) / self.kn + tau * slip,
-            Mode::Compression => now.shear_above_friction(tau) * slip,
-            Mode::Sliding => tau * slip,
-            Mode::Elastic | Mode::Open => 0.0,
-        }
-    }
-
-    /// E₁, E₂ and σ with derivatives by (τ, W), in T or in C with dilatancy.
-    pub fn equations(&self, mode: Mode, trial: &Trial, now: &Hyperbola, tau: f64, w: f64) -> Equations {
-        let Hyperbola { t, b, dc, dt, db, fc, dfc, .. } = *now;
-        let s = now.root(tau);
-        let sigma = now.sigma(tau, s);
-        let g = tau / s;
-        let s_w = b * db / s;
-        let sigma = ByTauWork { value: sigma, tau: -g / t, work: (dc - s_w - sigma * dt) / t };
-
-        let (f, f_tau, f_w) = if mode == Mode::Tension {
-            (1.0, 0.0, 0.0)
-        } else {
-            let (f_sigma, slope) = self.dilatancy(sigma.value);
-            (f_sigma * fc, slope * fc * sigma.tau, slope * fc * sigma.work + f_sigma * dfc)
-        };
-        let ratio = self.kn / self.kt;
-        let shear = trial.tau - tau;
-        let over = sigma.value - trial.sigma;
-        let normal = ByTauWork {
-            value: tau * over + ratio * shear * s * t * f,
-            tau: over + tau * sigma.tau + ratio * t * (shear * (g * f + s * f_tau) - s * f),
-            work: tau * sigma.work + ratio * shear * (s_w * t * f + s * dt * f + s * t * f_w),
-        };
-
-        let (value, omega_tau, omega_w) = if mode == Mode::Tension {
-            let by_sigma = (trial.sigma - 2.0 * sigma.value) / self.kn;
-            (
-                -sigma.value * over / self.kn + tau * shear / self.kt,
-                by_sigma * sigma.tau + (trial.tau - 2.0 * tau) / self.kt,
-                by_sigma * sigma.work,
-            )
-        } else {
-            let above = now.shear_above_friction(tau);
-            (
-                above * shear / self.kt,
-                ((1.0 - g) * shear - above) / self.kt,
-                (sigma.work * t + sigma.value * dt) * shear / self.kt,
-            )
-        };
-        let work = ByTauWork { value: w - trial.work - value, tau: -omega_tau, work: 1.0 - omega_w };
-        Equations { s, sigma, normal, work }
+/// The work ω of the step that ends at (σ, τ).
+pub(super) fn work_of_step(
+    surface: &Surface,
+    trial: &Trial,
+    now: &Hyperbola,
+    mode: Mode,
+    sigma: f64,
+    tau: f64,
+) -> f64 {
+    let slip = (trial.tau - tau) / surface.kt;
+    match mode {
+        Mode::Tension => sigma * (trial.sigma - sigma) / surface.kn + tau * slip,
+        Mode::Compression => now.shear_above_friction(tau) * slip,
+        Mode::Sliding => tau * slip,
+        Mode::Elastic | Mode::Open => 0.0,
     }
 }
 
-impl Hyperbola {
-    /// τ + σ t on the hyperbola, c − b²/(s + τ): zero or more, the part of the shear that is not friction.
-    pub fn shear_above_friction(&self, tau: f64) -> f64 {
-        let s = self.root(tau);
-        if s == 0.0 {
-            return self.c;
-        }
-        (self.c - self.b * self.b / (s + tau)).max(0.0)
-    }
+/// E₁, E₂ and σ with derivatives by (τ, W), in T or in C with dilatancy.
+pub(super) fn equations(
+    surface: &Surface,
+    mode: Mode,
+    trial: &Trial,
+    now: &Hyperbola,
+    tau: f64,
+    w: f64,
+) -> Equations {
+    let Hyperbola { t, b, dc, dt, db, fc, dfc, .. } = *now;
+    let s = now.root(tau);
+    let sigma = now.sigma(tau, s);
+    let g = tau / s;
+    let s_w = b * db / s;
+    let sigma = ByTauWork { value: sigma, tau: -g / t, work: (dc - s_w - sigma * dt) / t };
 
-    /// ∂τ/∂σ and ∂τ/∂W on the hyperbola, τ > 0.
-    pub fn tau_slopes(&self, sigma: f64, tau: f64) -> (f64, f64) {
-        let reach = self.c - sigma * self.t;
-        (-reach * self.t / tau, (reach * (self.dc - sigma * self.dt) - self.b * self.db) / tau)
-    }
+    let (f, f_tau, f_w) = if mode == Mode::Tension {
+        (1.0, 0.0, 0.0)
+    } else {
+        let (f_sigma, slope) = surface.dilatancy(sigma.value);
+        (f_sigma * fc, slope * fc * sigma.tau, slope * fc * sigma.work + f_sigma * dfc)
+    };
+    let ratio = surface.kn / surface.kt;
+    let shear = trial.tau - tau;
+    let over = sigma.value - trial.sigma;
+    let normal = ByTauWork {
+        value: tau * over + ratio * shear * s * t * f,
+        tau: over + tau * sigma.tau + ratio * t * (shear * (g * f + s * f_tau) - s * f),
+        work: tau * sigma.work + ratio * shear * (s_w * t * f + s * dt * f + s * t * f_w),
+    };
+
+    let (value, omega_tau, omega_w) = if mode == Mode::Tension {
+        let by_sigma = (trial.sigma - 2.0 * sigma.value) / surface.kn;
+        (
+            -sigma.value * over / surface.kn + tau * shear / surface.kt,
+            by_sigma * sigma.tau + (trial.tau - 2.0 * tau) / surface.kt,
+            by_sigma * sigma.work,
+        )
+    } else {
+        let above = now.shear_above_friction(tau);
+        (
+            above * shear / surface.kt,
+            ((1.0 - g) * shear - above) / surface.kt,
+            (sigma.work * t + sigma.value * dt) * shear / surface.kt,
+        )
+    };
+    let work = ByTauWork { value: w - trial.work - value, tau: -omega_tau, work: 1.0 - omega_w };
+    Equations { s, sigma, normal, work }
 }

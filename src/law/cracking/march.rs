@@ -11,6 +11,9 @@
 //! and the dissipation never fall. Plain backward Euler is the one stage γ = 1. Tractions are carried instead of the
 //! irreversible jump: K r loses digits at high stiffness, K Δr of a sub-step does not.
 
+use super::nested::solve_nested;
+use super::newton::solve;
+use super::tangent::linearise;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 use super::super::State;
@@ -57,62 +60,62 @@ impl Point {
     }
 }
 
-impl Surface {
-    /// K Δr, or K dr.
-    pub fn stiff(&self, jump: Vector2<f64>) -> Vector2<f64> {
-        Vector2::new(self.kn * jump.x, self.kt * jump.y)
-    }
+/// K Δr, or K dr.
+pub(super) fn stiff(surface: &Surface, jump: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(surface.kn * jump.x, surface.kt * jump.y)
+}
 
-    /// K⁻¹ Δt.
-    pub fn compliant(&self, traction: Vector2<f64>) -> Vector2<f64> {
-        Vector2::new(traction.x / self.kn, traction.y / self.kt)
-    }
+/// K⁻¹ Δt.
+pub(super) fn compliant(surface: &Surface, traction: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(traction.x / surface.kn, traction.y / surface.kt)
+}
 
-    /// How far outside a trial must lie to count [stress].
-    pub fn margin(&self, traction: Vector2<f64>) -> f64 {
-        ELASTIC * self.c0.max(traction.amax())
-    }
+/// How far outside a trial must lie to count [stress].
+pub(super) fn margin(surface: &Surface, traction: Vector2<f64>) -> f64 {
+    ELASTIC * surface.c0.max(traction.amax())
+}
 
-    fn stage(&self, trial: Vector2<f64>, work_old: f64, tau_near: f64) -> Stage {
-        if self.at(work_old).hyperbola(trial.x, trial.y) <= self.margin(trial) {
-            let answer = Answer { mode: Mode::Elastic, sigma: trial.x, tau: trial.y.abs(), work: work_old };
-            return Stage { trial, work_old, traction: trial, answer };
-        }
-        let half = Trial { sigma: trial.x, tau: trial.y.abs(), work: work_old };
-        let answer = self.solve(&half, tau_near);
-        let traction = Vector2::new(answer.sigma, answer.tau.copysign(trial.y));
-        Stage { trial, work_old, traction, answer }
+fn stage(surface: &Surface, trial: Vector2<f64>, work_old: f64, tau_near: f64) -> Stage {
+    if surface.at(work_old).hyperbola(trial.x, trial.y) <= margin(surface, trial) {
+        let answer = Answer { mode: Mode::Elastic, sigma: trial.x, tau: trial.y.abs(), work: work_old };
+        return Stage { trial, work_old, traction: trial, answer };
     }
+    let half = Trial { sigma: trial.x, tau: trial.y.abs(), work: work_old };
+    let answer = solve(surface, &half, tau_near);
+    let traction = Vector2::new(answer.sigma, answer.tau.copysign(trial.y));
+    Stage { trial, work_old, traction, answer }
+}
 
-    /// One backward Euler step by the nested solver.
-    pub fn step_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
-        let trial = old.traction + self.stiff(jump - old.jump);
-        if self.at(old.fracture_work).hyperbola(trial.x, trial.y) <= self.margin(trial) {
-            return (trial, old.fracture_work);
-        }
-        let half = Trial { sigma: trial.x, tau: trial.y.abs(), work: old.fracture_work };
-        let answer = self.solve_nested(&half);
-        (Vector2::new(answer.sigma, answer.tau.copysign(trial.y)), answer.work)
+/// One backward Euler step by the nested solver.
+pub(super) fn step_nested(surface: &Surface, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
+    let trial = old.traction + stiff(surface, jump - old.jump);
+    if surface.at(old.fracture_work).hyperbola(trial.x, trial.y) <= margin(surface, trial) {
+        return (trial, old.fracture_work);
     }
+    let half = Trial { sigma: trial.x, tau: trial.y.abs(), work: old.fracture_work };
+    let answer = solve_nested(surface, &half);
+    (Vector2::new(answer.sigma, answer.tau.copysign(trial.y)), answer.work)
+}
 
-    /// One backward Euler step along a change of jump.
-    pub fn euler_step(&self, from: &Point, change: Vector2<f64>) -> (Point, Stage) {
-        let stage = self.stage(from.traction + self.stiff(change), from.work, from.traction.y.abs());
-        (stage.end(from.dissipation + stage.dissipation(self)), stage)
-    }
+/// One backward Euler step along a change of jump.
+pub(super) fn euler_step(surface: &Surface, from: &Point, change: Vector2<f64>) -> (Point, Stage) {
+    let stage = stage(surface, from.traction + stiff(surface, change), from.work, from.traction.y.abs());
+    (stage.end(from.dissipation + stage.dissipation(surface)), stage)
+}
 
-    /// One step of the two-stage scheme along a change of jump.
-    pub fn two_stage_step(&self, from: &Point, change: Vector2<f64>) -> (Point, [Stage; 2]) {
-        let first = self.stage(from.traction + GAMMA * self.stiff(change), from.work, from.traction.y.abs());
-        let returned = first.trial - first.traction;
-        let second = self.stage(
-            from.traction + self.stiff(change) - FIRST * returned,
-            from.work + FIRST * (first.answer.work - from.work),
-            first.answer.tau,
-        );
-        let dissipation = from.dissipation + FIRST * first.dissipation(self) + second.dissipation(self);
-        (second.end(dissipation), [first, second])
-    }
+/// One step of the two-stage scheme along a change of jump.
+pub(super) fn two_stage_step(surface: &Surface, from: &Point, change: Vector2<f64>) -> (Point, [Stage; 2]) {
+    let first =
+        stage(surface, from.traction + GAMMA * stiff(surface, change), from.work, from.traction.y.abs());
+    let returned = first.trial - first.traction;
+    let second = stage(
+        surface,
+        from.traction + stiff(surface, change) - FIRST * returned,
+        from.work + FIRST * (first.answer.work - from.work),
+        first.answer.tau,
+    );
+    let dissipation = from.dissipation + FIRST * first.dissipation(surface) + second.dissipation(surface);
+    (second.end(dissipation), [first, second])
 }
 
 impl Stage {
@@ -123,7 +126,7 @@ impl Stage {
 
     /// t · Δr^p of this stage alone.
     fn dissipation(&self, surface: &Surface) -> f64 {
-        self.traction.dot(&surface.compliant(self.trial - self.traction))
+        self.traction.dot(&compliant(surface, self.trial - self.traction))
     }
 
     fn end(&self, dissipation: f64) -> Point {
@@ -142,7 +145,7 @@ impl Stage {
         }
         let sign = 1.0_f64.copysign(self.trial.y);
         let half = Trial { sigma: self.trial.x, tau: self.trial.y.abs(), work: self.work_old };
-        let by_trial: Matrix3<f64> = surface.linearise(&half, &self.answer);
+        let by_trial: Matrix3<f64> = linearise(surface, &half, &self.answer);
         let flip = |i: usize| if i == 1 { sign } else { 1.0 };
         let row = |i: usize| -> Vector2<f64> {
             let from_sigma = trial.row(0).transpose() * by_trial[(i, 0)];
@@ -159,8 +162,8 @@ impl Stage {
         trial: &Matrix2<f64>,
         traction: &Matrix2<f64>,
     ) -> Vector2<f64> {
-        let plastic = surface.compliant(self.trial - self.traction);
-        traction.tr_mul(&plastic) + (trial - traction).tr_mul(&surface.compliant(self.traction))
+        let plastic = compliant(surface, self.trial - self.traction);
+        traction.tr_mul(&plastic) + (trial - traction).tr_mul(&compliant(surface, self.traction))
     }
 }
 

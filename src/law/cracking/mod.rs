@@ -25,12 +25,14 @@ mod tangent;
 
 pub use surface::Strength;
 
+use facet::on_facet;
+use march::step_nested;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Response, State, Stepping, Unresolved};
-use substep::Lengths;
+use substep::{Lengths, march, march_euler, onset_of};
 use surface::Surface;
 
 /// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
@@ -99,24 +101,26 @@ impl Cracking {
     ) -> Result<Response, Unresolved> {
         let surface = Surface::new(self);
         match stepping {
-            Stepping::Tolerance(tolerance) => surface.march(jump, old, Lengths::Controlled(tolerance, None)),
-            Stepping::BackwardEuler(steps) => Ok(surface.march_euler(jump, old, steps)),
+            Stepping::Tolerance(tolerance) => {
+                march(&surface, jump, old, Lengths::Controlled(tolerance, None))
+            }
+            Stepping::BackwardEuler(steps) => Ok(march_euler(&surface, jump, old, steps)),
         }
     }
 
     /// The answer of a viscous step from a state under compression, with friction lagged and dilatancy kept.
     pub(super) fn respond_on_facet(&self, jump: Vector2<f64>, old: &State) -> Response {
-        Surface::new(self).on_facet(jump, old)
+        on_facet(&Surface::new(self), jump, old)
     }
 
     /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
     pub(super) fn onset(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
-        Surface::new(self).onset_of(jump, old)
+        onset_of(&Surface::new(self), jump, old)
     }
 
     /// One backward Euler step by the safe nested solver alone: traction (n, t), W. What Newton is checked against.
     pub fn respond_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
-        Surface::new(self).step_nested(jump, old)
+        step_nested(&Surface::new(self), jump, old)
     }
 
     /// The answer under error control, with the lengths of its sub-steps appended to `lengths`.
@@ -127,7 +131,7 @@ impl Cracking {
         tolerance: f64,
         lengths: &mut Vec<f64>,
     ) -> Result<Response, Unresolved> {
-        Surface::new(self).march(jump, old, Lengths::Controlled(tolerance, Some(lengths)))
+        march(&Surface::new(self), jump, old, Lengths::Controlled(tolerance, Some(lengths)))
     }
 
     /// The answer in sub-steps of given lengths, the last one up to the jump: the map whose exact derivative is the
@@ -138,7 +142,7 @@ impl Cracking {
         old: &State,
         lengths: &[f64],
     ) -> Result<Response, Unresolved> {
-        Surface::new(self).march(jump, old, Lengths::Given(lengths))
+        march(&Surface::new(self), jump, old, Lengths::Given(lengths))
     }
 
     /// What separates two states, as an error of the traction [stress]: in traction, strength and jump.
@@ -153,6 +157,6 @@ impl Cracking {
 
     /// The bound of the local error of a second-order step under this tolerance [stress].
     pub(super) fn local_bound(&self, tolerance: f64) -> f64 {
-        Surface::new(self).local_bound(tolerance)
+        control::local_bound(&Surface::new(self), tolerance)
     }
 }

@@ -11,98 +11,102 @@
 //!
 //! Outer: W − W_n − ω(W) = 0, negative at W_n. Both roots are bracketed.
 
-use super::flow::{Answer, Mode, Trial};
+use super::flow::{Answer, Mode, Trial, normal_equation, without_dilatancy, work_of_step};
 use super::surface::{Hyperbola, Surface};
 
 /// Steps of the root finder; it halves the bracket at least every other step.
 const STEPS: usize = 120;
 
-impl Surface {
-    /// The step from a trial outside the hyperbola.
-    pub fn solve_nested(&self, trial: &Trial) -> Answer {
-        let residual = |w: f64| {
-            let now = self.at(w);
-            let (mode, sigma, tau) = self.return_at(trial, &now);
-            w - trial.work - self.work_of_step(trial, &now, mode, sigma, tau)
-        };
-        let lo = trial.work;
-        let r_lo = residual(lo);
-        let mut work = lo;
-        if r_lo < 0.0 {
-            let (mut hi, mut r_hi) = (lo - r_lo, residual(lo - r_lo));
-            while r_hi < 0.0 && hi > lo && hi.is_finite() {
-                hi = lo + 2.0 * (hi - lo);
-                r_hi = residual(hi);
-            }
-            // a rise of W below rounding is taken as it is: none
-            work = if hi > lo { root(residual, (lo, r_lo), (hi, r_hi)) } else { lo };
+/// The step from a trial outside the hyperbola.
+pub(super) fn solve_nested(surface: &Surface, trial: &Trial) -> Answer {
+    let residual = |w: f64| {
+        let now = surface.at(w);
+        let (mode, sigma, tau) = return_at(surface, trial, &now);
+        w - trial.work - work_of_step(surface, trial, &now, mode, sigma, tau)
+    };
+    let lo = trial.work;
+    let r_lo = residual(lo);
+    let mut work = lo;
+    if r_lo < 0.0 {
+        let (mut hi, mut r_hi) = (lo - r_lo, residual(lo - r_lo));
+        while r_hi < 0.0 && hi > lo && hi.is_finite() {
+            hi = lo + 2.0 * (hi - lo);
+            r_hi = residual(hi);
         }
-        let (mode, sigma, tau) = self.return_at(trial, &self.at(work));
-        Answer { mode, sigma, tau, work }
+        // a rise of W below rounding is taken as it is: none
+        work = if hi > lo { root(residual, (lo, r_lo), (hi, r_hi)) } else { lo };
     }
+    let (mode, sigma, tau) = return_at(surface, trial, &surface.at(work));
+    Answer { mode, sigma, tau, work }
+}
 
-    /// Mode and traction of the return to the hyperbola at a fixed W.
-    pub fn return_at(&self, trial: &Trial, now: &Hyperbola) -> (Mode, f64, f64) {
-        match self.mode_at(trial, now) {
-            Mode::Tension if trial.tau == 0.0 => (Mode::Tension, now.chi, 0.0),
-            Mode::Tension => {
-                let hi = trial.tau.min(now.tau(0.0));
-                let tau = self.root_of_normal_equation(Mode::Tension, trial, now, 0.0, hi);
-                (Mode::Tension, now.sigma(tau, now.root(tau)).clamp(0.0, now.chi), tau)
-            }
-            Mode::Compression if self.without_dilatancy(trial.sigma, now) => {
-                (Mode::Compression, trial.sigma, now.tau(trial.sigma))
-            }
-            Mode::Compression => {
-                let lo = now.tau(0.0).min(trial.tau);
-                let tau = self.root_of_normal_equation(Mode::Compression, trial, now, lo, trial.tau);
-                (Mode::Compression, now.sigma(tau, now.root(tau)).min(0.0), tau)
-            }
-            mode => (mode, 0.0, if mode == Mode::Sliding { now.tau(0.0) } else { 0.0 }),
+/// Mode and traction of the return to the hyperbola at a fixed W.
+pub(super) fn return_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> (Mode, f64, f64) {
+    match mode_at(surface, trial, now) {
+        Mode::Tension if trial.tau == 0.0 => (Mode::Tension, now.chi, 0.0),
+        Mode::Tension => {
+            let hi = trial.tau.min(now.tau(0.0));
+            let tau = root_of_normal_equation(surface, Mode::Tension, trial, now, 0.0, hi);
+            (Mode::Tension, now.sigma(tau, now.root(tau)).clamp(0.0, now.chi), tau)
         }
+        Mode::Compression if without_dilatancy(surface, trial.sigma, now) => {
+            (Mode::Compression, trial.sigma, now.tau(trial.sigma))
+        }
+        Mode::Compression => {
+            let lo = now.tau(0.0).min(trial.tau);
+            let tau = root_of_normal_equation(surface, Mode::Compression, trial, now, lo, trial.tau);
+            (Mode::Compression, now.sigma(tau, now.root(tau)).min(0.0), tau)
+        }
+        mode => (mode, 0.0, if mode == Mode::Sliding { now.tau(0.0) } else { 0.0 }),
     }
+}
 
-    /// Which mode the return at a fixed W belongs to; G is multiplied by τ_y(0), so nothing is divided.
-    pub fn mode_at(&self, trial: &Trial, now: &Hyperbola) -> Mode {
-        if trial.tau == 0.0 {
-            return if now.chi > 0.0 { Mode::Tension } else { Mode::Open };
-        }
-        let tau0 = now.tau(0.0);
-        let back = self.kn / self.kt * (trial.tau - tau0) * now.t * now.c;
-        if now.chi > 0.0 && (tau0 > trial.tau || back < trial.sigma * tau0) {
-            return Mode::Tension;
-        }
-        // f at 0⁻ is f_c, or nothing without dilatancy
-        let to_the_right =
-            if now.fc == 0.0 { trial.sigma >= 0.0 } else { back * now.fc <= trial.sigma * tau0 };
-        match to_the_right {
-            true if tau0 > 0.0 => Mode::Sliding,
-            true => Mode::Open,
-            false => Mode::Compression,
-        }
+/// Which mode the return at a fixed W belongs to; G is multiplied by τ_y(0), so nothing is divided.
+pub(super) fn mode_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> Mode {
+    if trial.tau == 0.0 {
+        return if now.chi > 0.0 { Mode::Tension } else { Mode::Open };
     }
+    let tau0 = now.tau(0.0);
+    let back = surface.kn / surface.kt * (trial.tau - tau0) * now.t * now.c;
+    if now.chi > 0.0 && (tau0 > trial.tau || back < trial.sigma * tau0) {
+        return Mode::Tension;
+    }
+    // f at 0⁻ is f_c, or nothing without dilatancy
+    let to_the_right = if now.fc == 0.0 { trial.sigma >= 0.0 } else { back * now.fc <= trial.sigma * tau0 };
+    match to_the_right {
+        true if tau0 > 0.0 => Mode::Sliding,
+        true => Mode::Open,
+        false => Mode::Compression,
+    }
+}
 
-    fn root_of_normal_equation(&self, mode: Mode, trial: &Trial, now: &Hyperbola, lo: f64, hi: f64) -> f64 {
-        // with b = 0 the vertex is a corner, E₁ has the root τ = 0 always: divide it out
-        let corner = now.b == 0.0 && lo == 0.0;
-        let equation = |tau: f64| self.normal_equation(mode, trial, now, tau);
-        let at_lo = match corner {
-            true => now.chi - trial.sigma + self.kn / self.kt * trial.tau * now.t,
-            false => equation(lo),
-        };
-        let at_hi = equation(hi);
-        if at_lo <= 0.0 {
-            return lo; // rounding, or the corner itself
+fn root_of_normal_equation(
+    surface: &Surface,
+    mode: Mode,
+    trial: &Trial,
+    now: &Hyperbola,
+    lo: f64,
+    hi: f64,
+) -> f64 {
+    // with b = 0 the vertex is a corner, E₁ has the root τ = 0 always: divide it out
+    let corner = now.b == 0.0 && lo == 0.0;
+    let equation = |tau: f64| normal_equation(surface, mode, trial, now, tau);
+    let at_lo = match corner {
+        true => now.chi - trial.sigma + surface.kn / surface.kt * trial.tau * now.t,
+        false => equation(lo),
+    };
+    let at_hi = equation(hi);
+    if at_lo <= 0.0 {
+        return lo; // rounding, or the corner itself
+    }
+    if at_hi >= 0.0 {
+        return hi;
+    }
+    match corner {
+        true => {
+            root(|tau| if tau > 0.0 { equation(tau) / tau } else { at_lo }, (lo, at_lo), (hi, at_hi / hi))
         }
-        if at_hi >= 0.0 {
-            return hi;
-        }
-        match corner {
-            true => {
-                root(|tau| if tau > 0.0 { equation(tau) / tau } else { at_lo }, (lo, at_lo), (hi, at_hi / hi))
-            }
-            false => root(equation, (lo, at_lo), (hi, at_hi)),
-        }
+        false => root(equation, (lo, at_lo), (hi, at_hi)),
     }
 }
 

@@ -3,7 +3,8 @@
 //! The mode is that of the return at the old W. An answer is accepted only if it satisfies the equations and every
 //! sign its mode promises; anything else is solved again, safely.
 
-use super::flow::{Answer, Equations, Mode, Trial};
+use super::flow::{Answer, Equations, Mode, Trial, equations, without_dilatancy};
+use super::nested::{mode_at, solve_nested};
 use super::surface::Surface;
 
 /// Iterations before giving up; five are usual.
@@ -11,107 +12,102 @@ const ITERATIONS: usize = 12;
 /// Last correction, relative: the error left is its square.
 const LAST_CORRECTION: f64 = 1e-8;
 
-impl Surface {
-    /// The step from a trial outside the hyperbola; `tau_near` is a shear traction near the answer, 0 if unknown.
-    pub fn solve(&self, trial: &Trial, tau_near: f64) -> Answer {
-        self.solve_newton(trial, tau_near).unwrap_or_else(|| self.solve_nested(trial))
-    }
+/// The step from a trial outside the hyperbola; `tau_near` is a shear traction near the answer, 0 if unknown.
+pub(super) fn solve(surface: &Surface, trial: &Trial, tau_near: f64) -> Answer {
+    solve_newton(surface, trial, tau_near).unwrap_or_else(|| solve_nested(surface, trial))
+}
 
-    /// Newton's answer, if it passes all checks.
-    pub fn solve_newton(&self, trial: &Trial, tau_near: f64) -> Option<Answer> {
-        let start = self.at(trial.work);
-        match self.mode_at(trial, &start) {
-            Mode::Open => (start.chi == 0.0).then_some(Answer {
-                mode: Mode::Open,
-                sigma: 0.0,
-                tau: 0.0,
-                work: trial.work,
-            }),
-            Mode::Tension if trial.tau == 0.0 => self.newton_on_work(trial, Mode::Tension),
-            Mode::Compression if self.without_dilatancy(trial.sigma, &start) => {
-                self.newton_on_work(trial, Mode::Compression)
-            }
-            Mode::Sliding => self.newton_on_work(trial, Mode::Sliding),
-            mode => self.newton_on_both(trial, mode, tau_near),
+/// Newton's answer, if it passes all checks.
+pub(super) fn solve_newton(surface: &Surface, trial: &Trial, tau_near: f64) -> Option<Answer> {
+    let start = surface.at(trial.work);
+    match mode_at(surface, trial, &start) {
+        Mode::Open => {
+            (start.chi == 0.0).then_some(Answer { mode: Mode::Open, sigma: 0.0, tau: 0.0, work: trial.work })
         }
-    }
-
-    /// T or C with dilatancy: unknowns (τ, W).
-    fn newton_on_both(&self, trial: &Trial, mode: Mode, tau_near: f64) -> Option<Answer> {
-        let start = self.at(trial.work);
-        // near the vertex E₁ is linear in τ
-        let near_vertex = self.kn / self.kt * start.b * start.t;
-        let from_vertex = trial.tau * near_vertex / ((trial.sigma - start.chi).max(0.0) + near_vertex);
-        let mut tau = if tau_near > 0.0 { tau_near.min(trial.tau) } else { from_vertex };
-        let mut w = trial.work;
-        for _ in 0..ITERATIONS {
-            let now = self.at(w);
-            let Equations { normal, work, .. } = self.equations(mode, trial, &now, tau, w);
-            let det = normal.tau * work.work - normal.work * work.tau;
-            let d_tau = (normal.work * work.value - normal.value * work.work) / det;
-            let d_w = (work.tau * normal.value - normal.tau * work.value) / det;
-            if !(d_tau.is_finite() && d_w.is_finite()) {
-                return None;
-            }
-            let next = tau + d_tau;
-            tau = if next <= 0.0 { 0.1 * tau } else { next.min(trial.tau) };
-            w = (w + d_w).max(trial.work);
-            let settled = (next - tau).abs() <= LAST_CORRECTION * tau
-                && d_tau.abs() <= LAST_CORRECTION * tau
-                && d_w.abs() <= LAST_CORRECTION * (w - trial.work) + 4.0 * f64::EPSILON * w;
-            if settled {
-                let now = self.at(w);
-                let sigma = now.sigma(tau, now.root(tau));
-                let promised = match mode {
-                    Mode::Tension => sigma > 0.0 && now.chi > 0.0,
-                    _ => sigma < 0.0 && !self.without_dilatancy(trial.sigma, &now),
-                };
-                return (promised && sigma <= trial.sigma).then_some(Answer { mode, sigma, tau, work: w });
-            }
+        Mode::Tension if trial.tau == 0.0 => newton_on_work(surface, trial, Mode::Tension),
+        Mode::Compression if without_dilatancy(surface, trial.sigma, &start) => {
+            newton_on_work(surface, trial, Mode::Compression)
         }
-        None
+        Mode::Sliding => newton_on_work(surface, trial, Mode::Sliding),
+        mode => newton_on_both(surface, trial, mode, tau_near),
     }
+}
 
-    /// Pure tension, compression without dilatancy, and Z: the traction follows from W.
-    fn newton_on_work(&self, trial: &Trial, mode: Mode) -> Option<Answer> {
-        let mut w = trial.work;
-        for _ in 0..ITERATIONS {
-            let now = self.at(w);
-            let (value, slope) = if mode == Mode::Tension {
-                let over = trial.sigma - now.chi;
-                (now.chi * over / self.kn, now.dchi * (over - now.chi) / self.kn)
-            } else {
-                let sigma = if mode == Mode::Sliding { 0.0 } else { trial.sigma };
-                let tau = now.tau(sigma);
-                if tau <= 0.0 {
-                    return None;
-                }
-                let (_, tau_w) = now.tau_slopes(sigma, tau);
-                let above = if mode == Mode::Sliding { tau } else { now.shear_above_friction(tau) };
-                let slip = (trial.tau - tau) / self.kt;
-                (above * slip, (tau_w + sigma * now.dt) * slip - above * tau_w / self.kt)
+/// T or C with dilatancy: unknowns (τ, W).
+fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -> Option<Answer> {
+    let start = surface.at(trial.work);
+    // near the vertex E₁ is linear in τ
+    let near_vertex = surface.kn / surface.kt * start.b * start.t;
+    let from_vertex = trial.tau * near_vertex / ((trial.sigma - start.chi).max(0.0) + near_vertex);
+    let mut tau = if tau_near > 0.0 { tau_near.min(trial.tau) } else { from_vertex };
+    let mut w = trial.work;
+    for _ in 0..ITERATIONS {
+        let now = surface.at(w);
+        let Equations { normal, work, .. } = equations(surface, mode, trial, &now, tau, w);
+        let det = normal.tau * work.work - normal.work * work.tau;
+        let d_tau = (normal.work * work.value - normal.value * work.work) / det;
+        let d_w = (work.tau * normal.value - normal.tau * work.value) / det;
+        if !(d_tau.is_finite() && d_w.is_finite()) {
+            return None;
+        }
+        let next = tau + d_tau;
+        tau = if next <= 0.0 { 0.1 * tau } else { next.min(trial.tau) };
+        w = (w + d_w).max(trial.work);
+        let settled = (next - tau).abs() <= LAST_CORRECTION * tau
+            && d_tau.abs() <= LAST_CORRECTION * tau
+            && d_w.abs() <= LAST_CORRECTION * (w - trial.work) + 4.0 * f64::EPSILON * w;
+        if settled {
+            let now = surface.at(w);
+            let sigma = now.sigma(tau, now.root(tau));
+            let promised = match mode {
+                Mode::Tension => sigma > 0.0 && now.chi > 0.0,
+                _ => sigma < 0.0 && !without_dilatancy(surface, trial.sigma, &now),
             };
-            let d_w = -(w - trial.work - value) / (1.0 - slope);
-            if !d_w.is_finite() {
+            return (promised && sigma <= trial.sigma).then_some(Answer { mode, sigma, tau, work: w });
+        }
+    }
+    None
+}
+
+/// Pure tension, compression without dilatancy, and Z: the traction follows from W.
+fn newton_on_work(surface: &Surface, trial: &Trial, mode: Mode) -> Option<Answer> {
+    let mut w = trial.work;
+    for _ in 0..ITERATIONS {
+        let now = surface.at(w);
+        let (value, slope) = if mode == Mode::Tension {
+            let over = trial.sigma - now.chi;
+            (now.chi * over / surface.kn, now.dchi * (over - now.chi) / surface.kn)
+        } else {
+            let sigma = if mode == Mode::Sliding { 0.0 } else { trial.sigma };
+            let tau = now.tau(sigma);
+            if tau <= 0.0 {
                 return None;
             }
-            w = (w + d_w).max(trial.work);
-            if d_w.abs() <= LAST_CORRECTION * (w - trial.work) + 4.0 * f64::EPSILON * w {
-                return self.accept_on_work(trial, mode, w);
-            }
-        }
-        None
-    }
-
-    fn accept_on_work(&self, trial: &Trial, mode: Mode, w: f64) -> Option<Answer> {
-        let now = self.at(w);
-        let answer = match mode {
-            Mode::Tension => Answer { mode, sigma: now.chi, tau: 0.0, work: w },
-            Mode::Sliding => Answer { mode, sigma: 0.0, tau: now.tau(0.0), work: w },
-            _ => Answer { mode, sigma: trial.sigma, tau: now.tau(trial.sigma), work: w },
+            let (_, tau_w) = now.tau_slopes(sigma, tau);
+            let above = if mode == Mode::Sliding { tau } else { now.shear_above_friction(tau) };
+            let slip = (trial.tau - tau) / surface.kt;
+            (above * slip, (tau_w + sigma * now.dt) * slip - above * tau_w / surface.kt)
         };
-        let same_mode = self.mode_at(trial, &now) == mode;
-        let same_flow = mode != Mode::Compression || self.without_dilatancy(trial.sigma, &now);
-        (same_mode && same_flow && answer.tau <= trial.tau).then_some(answer)
+        let d_w = -(w - trial.work - value) / (1.0 - slope);
+        if !d_w.is_finite() {
+            return None;
+        }
+        w = (w + d_w).max(trial.work);
+        if d_w.abs() <= LAST_CORRECTION * (w - trial.work) + 4.0 * f64::EPSILON * w {
+            return accept_on_work(surface, trial, mode, w);
+        }
     }
+    None
+}
+
+fn accept_on_work(surface: &Surface, trial: &Trial, mode: Mode, w: f64) -> Option<Answer> {
+    let now = surface.at(w);
+    let answer = match mode {
+        Mode::Tension => Answer { mode, sigma: now.chi, tau: 0.0, work: w },
+        Mode::Sliding => Answer { mode, sigma: 0.0, tau: now.tau(0.0), work: w },
+        _ => Answer { mode, sigma: trial.sigma, tau: now.tau(trial.sigma), work: w },
+    };
+    let same_mode = mode_at(surface, trial, &now) == mode;
+    let same_flow = mode != Mode::Compression || without_dilatancy(surface, trial.sigma, &now);
+    (same_mode && same_flow && answer.tau <= trial.tau).then_some(answer)
 }

@@ -165,6 +165,21 @@ impl Hyperbola {
     pub fn tau(&self, sigma: f64) -> f64 {
         (self.t * (self.chi - sigma) * (2.0 * self.c - self.t * (self.chi + sigma))).max(0.0).sqrt()
     }
+
+    /// τ + σ t on the hyperbola, c − b²/(s + τ): zero or more, the part of the shear that is not friction.
+    pub fn shear_above_friction(&self, tau: f64) -> f64 {
+        let s = self.root(tau);
+        if s == 0.0 {
+            return self.c;
+        }
+        (self.c - self.b * self.b / (s + tau)).max(0.0)
+    }
+
+    /// ∂τ/∂σ and ∂τ/∂W on the hyperbola, τ > 0.
+    pub fn tau_slopes(&self, sigma: f64, tau: f64) -> (f64, f64) {
+        let reach = self.c - sigma * self.t;
+        (-reach * self.t / tau, (reach * (self.dc - sigma * self.dt) - self.b * self.db) / tau)
+    }
 }
 
 #[cfg(test)]
