@@ -10,7 +10,7 @@ use midplane::continuum::recover;
 use midplane::history::{Clock, Equations, History, Means, processor};
 use midplane::problem::Problem;
 use midplane::scene;
-use midplane::solver::{Linear, Plan, System};
+use midplane::solver::{FactorPlan, Linear, System};
 
 mod layers;
 use layers::layers;
@@ -81,7 +81,7 @@ fn bare(problem: &Problem) -> Result<f64, String> {
         model.joints.iter().map(|joint| SPRINGS.repeat(joint.coupling.points.len())).collect();
     let system =
         System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
-    let plan = Plan::analyse(&pattern, &model.coordinates()).map_err(|e| format!("{e:?}"))?;
+    let plan = FactorPlan::analyse(&pattern, &model.coordinates()).map_err(|e| format!("{e:?}"))?;
     let stage = &problem.stages[0];
     let linear = Linear::new(system, &plan, &stage.held).map_err(|e| format!("{e:?}"))?;
     let force = stage.force(model, 1.0).map_err(|e| e.to_string())?;

@@ -6,13 +6,13 @@
 use std::sync::Arc;
 
 use divan::{Bencher, black_box};
-use midplane::assembly::Tangent;
-use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme, Side};
-use midplane::law::{State, Stepping};
+use midplane::assembly::{InterfaceTangent, add_stiffness};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
+use midplane::law::{Integration, State};
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
 use midplane::scene;
-use midplane::solver::{Base, Condensation, Continuum, Dual, Form, Plan};
+use midplane::solver::{Base, Condensation, Condensed, Continuum, FactorPlan, Form};
 use nalgebra::Vector2;
 
 mod layers;
@@ -68,7 +68,7 @@ fn pairing(bencher: Bencher, dofs: usize) {
     let (top, bottom) = (edges(&meshes[0], "top"), edges(&meshes[1], "bottom"));
     let side =
         |name, of: usize, edges| Side { name, points: &meshes[of].points, edges, corners: &[], first: 0 };
-    let scheme = Scheme { kind: Kind::Projected, points: Points::Gauss, gap: Gap::Closed };
+    let scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
     bencher.bench_local(|| {
         Coupling::build("joint", &[side("top", 0, &top)], &[side("bottom", 1, &bottom)], scheme)
             .unwrap_or_else(|error| unreachable!("{error}"))
@@ -84,7 +84,7 @@ fn law_points(problem: &Problem, tractions: &mut Vec<f64>, stiffness: &mut Vec<f
     for p in 0..points {
         let slip = 2e-6 * p as f64 / points as f64; // half of them slide
         let jump = black_box(Vector2::new(-1e-6, slip));
-        let answer = law.respond(jump, &State::default(), Stepping::Tolerance(1e-4));
+        let answer = law.respond(jump, &State::default(), Integration::Tolerance(1e-4));
         let answer = answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"));
         tractions.extend_from_slice(answer.traction.as_slice());
         stiffness.extend_from_slice(answer.stiffness.transpose().as_slice());
@@ -106,10 +106,10 @@ fn whole_factor(bencher: Bencher, dofs: usize) {
     let pattern = model.pattern();
     let mut matrix = model.continuum(&pattern);
     let springs = SPRINGS.repeat(model.joints[0].coupling.points.len());
-    model.joints[0].add_stiffness(&pattern, &springs, &mut matrix);
+    add_stiffness(&model.joints[0], &pattern, &springs, &mut matrix);
     matrix.hold(&pattern, held(&problem));
     let plan =
-        Plan::analyse(&pattern, &model.coordinates()).unwrap_or_else(|error| unreachable!("{error:?}"));
+        FactorPlan::analyse(&pattern, &model.coordinates()).unwrap_or_else(|error| unreachable!("{error:?}"));
     bencher.bench_local(|| {
         plan.factor(&pattern, black_box(&matrix)).unwrap_or_else(|error| unreachable!("{error:?}"))
     });
@@ -131,8 +131,8 @@ fn newton_step(bencher: Bencher, dofs: usize) {
     let continuum = continuum(&problem);
     let base = Base::new(&continuum, Arc::new(condense(&continuum, held)), joints, &springs, held);
     let mut form =
-        Dual::new(base.unwrap_or_else(|error| unreachable!("{error:?}")), &[0], &springs, &springs);
-    let mut tangents = [Tangent::new(&joints[0])];
+        Condensed::new(base.unwrap_or_else(|error| unreachable!("{error:?}")), &[0], &springs, &springs);
+    let mut tangents = [InterfaceTangent::new(&joints[0])];
     let (mut tractions, mut stiffness) = (Vec::new(), Vec::new());
     let mut x = vec![1e-6; joints[0].size()];
     let target = x.clone();

@@ -5,11 +5,11 @@
 
 use std::time::Instant;
 
-use midplane::assembly::{Pattern, Symmetric};
+use midplane::assembly::{Pattern, Symmetric, add_stiffness};
 use midplane::history::{Clock, Equations, History, Means, memory};
 use midplane::problem::Problem;
 use midplane::scene;
-use midplane::solver::{Cut, Parts, Plan, Symbolic, nested_dissection};
+use midplane::solver::{Cut, FactorPlan, Parts, Symbolic, nested_dissection};
 
 mod layers;
 use layers::layers;
@@ -41,7 +41,7 @@ fn measure(dofs: usize) -> Result<(), String> {
     let mut matrix = timed("continuum", || model.continuum(&pattern));
     for joint in &model.joints {
         let stiffness = [1e7, 0.0, 0.0, 1e7].repeat(joint.coupling.points.len());
-        timed("joint", || joint.add_stiffness(&pattern, &stiffness, &mut matrix));
+        timed("joint", || add_stiffness(joint, &pattern, &stiffness, &mut matrix));
     }
     matrix.hold(&pattern, &problem.stages[0].held);
     let coordinates = model.coordinates();
@@ -49,11 +49,11 @@ fn measure(dofs: usize) -> Result<(), String> {
     let joined = timed("symbolic", || Symbolic::with_order(&pattern, &order));
     let joined = joined.map_err(|e| format!("{e:?}"))?;
     println!("    {:<27} {:8.2} GFlop", "joined", joined.operations() / 1e9);
-    factor(&Plan::Joined(joined), &pattern, &matrix)?;
+    factor(&FactorPlan::Joined(joined), &pattern, &matrix)?;
     let parts = timed("cut, symbolic of parts", || Parts::new(&pattern, Cut::new(&pattern, &order)));
-    factor(&Plan::InParts(parts.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
+    factor(&FactorPlan::InParts(parts.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
     let degree = timed("minimum degree, symbolic", || Symbolic::minimum_degree(&pattern));
-    factor(&Plan::Joined(degree.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
+    factor(&FactorPlan::Joined(degree.map_err(|e| format!("{e:?}"))?), &pattern, &matrix)?;
     drop((pattern, matrix));
 
     let mut clock = Clock::new("march");
@@ -69,7 +69,7 @@ fn measure(dofs: usize) -> Result<(), String> {
     Ok(())
 }
 
-fn factor(plan: &Plan, pattern: &Pattern, matrix: &Symmetric) -> Result<(), String> {
+fn factor(plan: &FactorPlan, pattern: &Pattern, matrix: &Symmetric) -> Result<(), String> {
     println!("    {:<27} {:8.2} million entries", plan.method().name(), plan.entries() as f64 / 1e6);
     let factor = timed("numeric", || plan.factor(pattern, matrix)).map_err(|e| format!("{e:?}"))?;
     let mut x = vec![1.0; pattern.size()];

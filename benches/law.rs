@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use divan::{Bencher, black_box};
-use midplane::law::{Cracking, Elastic, Law, Response, State, Stepping};
+use midplane::law::{Cracking, Elastic, Integration, Law, Response, State};
 use nalgebra::Vector2;
 
 fn main() {
@@ -27,13 +27,13 @@ const LAW: Cracking = Cracking {
     alpha_dilatancy_cohesion: 0.0,
 };
 
-fn respond(law: Cracking, jump: [f64; 2], old: &State, stepping: Stepping) -> Response {
+fn respond(law: Cracking, jump: [f64; 2], old: &State, stepping: Integration) -> Response {
     let answer = Law::Cracking(law).respond(Vector2::from(black_box(jump)), black_box(old), stepping);
     answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"))
 }
 
 fn opened() -> State {
-    respond(LAW, [2e-5, 1e-5], &State::default(), Stepping::Tolerance(1e-6)).state
+    respond(LAW, [2e-5, 1e-5], &State::default(), Integration::Tolerance(1e-6)).state
 }
 
 #[divan::bench]
@@ -48,25 +48,25 @@ fn elastic_law_full_answer(bencher: Bencher) {
     let springs = Law::Elastic(Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 });
     let old = State::default();
     let jump = Vector2::new(1e-6, 2e-6);
-    bencher.bench_local(|| springs.respond(black_box(jump), black_box(&old), Stepping::Tolerance(1e-4)));
+    bencher.bench_local(|| springs.respond(black_box(jump), black_box(&old), Integration::Tolerance(1e-4)));
 }
 
 #[divan::bench]
 fn cracking_elastic(bencher: Bencher) {
     let old = opened();
-    bencher.bench_local(|| respond(LAW, [1.99e-5, 1e-5], &old, Stepping::Tolerance(1e-4)));
+    bencher.bench_local(|| respond(LAW, [1.99e-5, 1e-5], &old, Integration::Tolerance(1e-4)));
 }
 
 #[divan::bench]
 fn cracking_tension_newton(bencher: Bencher) {
     let old = opened();
-    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Stepping::BackwardEuler(1)));
+    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Integration::BackwardEuler(1)));
 }
 
 #[divan::bench]
 fn cracking_compression_newton(bencher: Bencher) {
-    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Stepping::Tolerance(1e-6)).state;
-    bencher.bench_local(|| respond(LAW, [-5e-7, 2.1e-5], &old, Stepping::BackwardEuler(1)));
+    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Integration::Tolerance(1e-6)).state;
+    bencher.bench_local(|| respond(LAW, [-5e-7, 2.1e-5], &old, Integration::BackwardEuler(1)));
 }
 
 #[divan::bench]
@@ -77,12 +77,12 @@ fn cracking_tension_fallback(bencher: Bencher) {
 
 #[divan::bench]
 fn cracking_compression_fallback(bencher: Bencher) {
-    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Stepping::Tolerance(1e-6)).state;
+    let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Integration::Tolerance(1e-6)).state;
     bencher.bench_local(|| LAW.respond_nested(black_box(Vector2::new(-5e-7, 2.1e-5)), black_box(&old)));
 }
 
 #[divan::bench]
 fn cracking_under_error_control(bencher: Bencher) {
     let old = opened();
-    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Stepping::Tolerance(1e-4)));
+    bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Integration::Tolerance(1e-4)));
 }

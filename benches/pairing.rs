@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use indexmap::IndexMap;
-use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme, Side, join};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, join};
 use midplane::mesh::{Cells, Edge, Group, Mesh, touching};
 use midplane::shape::Shape;
 
 const RUNS: usize = 7;
-const SCHEME: Scheme = Scheme { kind: Kind::Projected, points: Points::Gauss, gap: Gap::Closed };
+const SCHEME: Scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
 
 fn main() {
     let sizes: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();

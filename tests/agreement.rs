@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use midplane::history::{Clock, Equations, History, Means, State};
+use midplane::history::{Clock, Equations, History, Means, ModelState};
 use midplane::problem::stiffness_number;
 use midplane::run::{Options, prepare};
 
@@ -28,7 +28,7 @@ fn scenes() -> Vec<PathBuf> {
 }
 
 /// All increments of a scene, and the largest K_N h/E of its joints.
-fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<State>, f64) {
+fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f64) {
     let options = Options {
         scene: file.to_path_buf(),
         out: Some(folder.to_path_buf()),
@@ -74,7 +74,7 @@ fn all_forms_find_the_same() {
             assert_eq!(condensed.len(), states.len());
             let mut worst = [0.0_f64; 2];
             for (a, b) in condensed.iter().zip(&states) {
-                let tractions = |state: &State| state.snapshot.tractions.concat().into_iter().flatten();
+                let tractions = |state: &ModelState| state.snapshot.tractions.concat().into_iter().flatten();
                 worst[0] = worst[0].max(apart(a.snapshot.u.iter().copied(), b.snapshot.u.iter().copied()));
                 worst[1] = worst[1].max(apart(tractions(a), tractions(b)));
             }

@@ -32,7 +32,7 @@ fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: u
     let problem = bind(&text, layers(mesh.0, mesh.1)).unwrap();
     let march = try_solve(&problem);
     let totals = march.end.unwrap_or_else(|error| panic!("{what}: {error}"));
-    let shear = |state: &midplane::history::State| state.probes(&problem)[0];
+    let shear = |state: &midplane::history::ModelState| state.probes(&problem)[0];
     let fifth = |level: f64| (5.0 * level - (5.0 * level).round()).abs() < 1e-9;
     let rows = march.states.iter().zip(&march.load_factors).skip(1);
     let curve: Vec<f64> = rows.filter(|(_, level)| fifth(**level)).map(|(state, _)| shear(state)).collect();

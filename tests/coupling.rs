@@ -3,7 +3,7 @@
 mod common;
 
 use common::{even, graded};
-use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use midplane::mesh::Edge;
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ fn side<'a>(name: &'a str, points: &'a [[f64; 2]], edges: &'a [Edge]) -> Side<'a
     Side { name, points, edges, corners: &[], first: 0 }
 }
 
-fn join(a: Side, b: Side, kind: Kind, points: Points) -> midplane::error::Result<Coupling> {
+fn join(a: Side, b: Side, kind: JumpScheme, points: Points) -> midplane::error::Result<Coupling> {
     Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed })
 }
 
@@ -32,7 +32,7 @@ impl Line {
     }
 
     /// A lies below: its body is on the left of an edge that runs backwards. B lies above.
-    fn couple(&self, kind: Kind, points: Points) -> Coupling {
+    fn couple(&self, kind: JumpScheme, points: Points) -> Coupling {
         let back = edges(self.points_a.len(), true);
         let forth = edges(self.points_b.len(), false);
         let a = side("lower.top", &self.points_a, &back);
@@ -41,7 +41,7 @@ impl Line {
     }
 
     /// The same joint with A and B exchanged.
-    fn couple_swapped(&self, kind: Kind) -> Coupling {
+    fn couple_swapped(&self, kind: JumpScheme) -> Coupling {
         let back = edges(self.points_a.len(), true);
         let forth = edges(self.points_b.len(), false);
         let a = side("lower.top", &self.points_a, &back);
@@ -130,10 +130,10 @@ fn matched_sides_are_the_classical_element_entry_by_entry() {
         let (sin, cos) = f64::to_radians(degrees).sin_cos();
         let r = [[-sin, cos], [cos, sin]]; // rows n and t, t along the line
         for (kind, points) in [
-            (Kind::Pointwise, Points::Gauss),
-            (Kind::Pointwise, Points::Lobatto),
-            (Kind::Projected, Points::Gauss),
-            (Kind::Projected, Points::Lobatto),
+            (JumpScheme::Pointwise, Points::Gauss),
+            (JumpScheme::Pointwise, Points::Lobatto),
+            (JumpScheme::Projected, Points::Gauss),
+            (JumpScheme::Projected, Points::Lobatto),
         ] {
             let places =
                 if points == Points::Gauss { [-1.0 / 3f64.sqrt(), 1.0 / 3f64.sqrt()] } else { [-1.0, 1.0] };
@@ -187,7 +187,7 @@ fn constant_and_linear_jumps_are_reproduced() {
     for (n_a, n_b) in DENSITIES {
         for degrees in [0.0, 77.0] {
             let line = Line::new(&even(0.0, 2.0, n_a), &graded(0.0, 2.0, n_b.max(2), 5.0), degrees, 0.0);
-            for kind in [Kind::Pointwise, Kind::Projected] {
+            for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
                 let c = line.couple(kind, Points::Gauss);
                 let got = jumps(&c, &line.displacements(&c, false, &a, &b));
                 for (point, jump) in c.points.iter().zip(got) {
@@ -212,7 +212,7 @@ fn rigid_motions_give_no_jump() {
     for gap in [0.0, 1e-4, -1e-3] {
         for (n_a, n_b) in DENSITIES {
             let line = Line::new(&even(0.0, 2.0, n_a), &even(0.0, 2.0, n_b), 20.0, gap);
-            for kind in [Kind::Pointwise, Kind::Projected] {
+            for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
                 let c = line.couple(kind, Points::Gauss);
                 let rigid = |x: [f64; 2]| [0.3 - 0.1 * x[1], -0.2 + 0.1 * x[0]];
                 for jump in jumps(&c, &line.displacements(&c, false, &rigid, &rigid)) {
@@ -231,22 +231,22 @@ fn rigid_motions_give_no_jump() {
 fn the_grid_is_as_fine_as_the_locally_coarser_side() {
     let fine = even(0.0, 1.0, 40);
     let coarse = graded(0.0, 1.0, 7, 3.0);
-    let c = Line::new(&fine, &coarse, 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    let c = Line::new(&fine, &coarse, 0.0, 0.0).couple(JumpScheme::Projected, Points::Gauss);
     assert!(c.grid.len() <= coarse.len());
     for (n_a, n_b) in DENSITIES {
         let c = Line::new(&even(0.0, 1.0, n_a), &even(0.0, 1.0, n_b), 0.0, 0.0)
-            .couple(Kind::Projected, Points::Gauss);
+            .couple(JumpScheme::Projected, Points::Gauss);
         assert!(c.grid.len() - 1 <= n_a.min(n_b), "{n_a}:{n_b}");
     }
     // nested: every node of the coarse side is a node of the fine one, so the grid is the coarse side
-    let c =
-        Line::new(&even(0.0, 1.0, 40), &even(0.0, 1.0, 5), 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    let c = Line::new(&even(0.0, 1.0, 40), &even(0.0, 1.0, 5), 0.0, 0.0)
+        .couple(JumpScheme::Projected, Points::Gauss);
     for (got, exact) in c.grid.iter().zip(even(0.0, 1.0, 5)) {
         assert!((got - exact).abs() < 1e-15);
     }
     // on a part of the length only the common part is joined
-    let c =
-        Line::new(&even(0.0, 1.0, 10), &even(0.3, 1.7, 9), 0.0, 0.0).couple(Kind::Projected, Points::Gauss);
+    let c = Line::new(&even(0.0, 1.0, 10), &even(0.3, 1.7, 9), 0.0, 0.0)
+        .couple(JumpScheme::Projected, Points::Gauss);
     assert!((c.midplane.length - 0.7).abs() < 1e-15);
 }
 
@@ -271,7 +271,7 @@ proptest! {
         let line = Line::new(&s_a, &s_b, degrees, 0.0);
         let a = |x: [f64; 2]| [(3.0 * x[0]).sin(), x[0] * x[1]];
         let b = |x: [f64; 2]| [x[1] * x[1], (2.0 * x[1] - x[0]).cos()];
-        for kind in [Kind::Pointwise, Kind::Projected] {
+        for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
             let (one, two) = (line.couple(kind, Points::Gauss), line.couple_swapped(kind));
             let first = jumps(&one, &line.displacements(&one, false, &a, &b));
             let mut second = jumps(&two, &line.displacements(&two, true, &a, &b));
@@ -289,7 +289,7 @@ proptest! {
     #[test]
     fn weights_are_positive(s_a in places(), s_b in places()) {
         let line = Line::new(&s_a, &s_b, 0.0, 0.0);
-        for kind in [Kind::Pointwise, Kind::Projected] {
+        for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
             let c = line.couple(kind, Points::Gauss);
             prop_assert!(c.points.iter().all(|p| p.weight > 0.0));
             prop_assert!((c.points.iter().map(|p| p.weight).sum::<f64>() - 2.0).abs() < 1e-13);
@@ -306,7 +306,7 @@ fn sides_that_do_not_face_each_other_are_refused() {
         let (back, forth) = (edges(points_a.len(), true), edges(points_b.len(), turn));
         let a = side("lower.top", points_a, &back);
         let b = side("upper.bottom", points_b, &forth);
-        join(a, b, Kind::Projected, Points::Gauss).unwrap_err().to_string()
+        join(a, b, JumpScheme::Projected, Points::Gauss).unwrap_err().to_string()
     };
     let line = |x0: f64, y: f64| [[x0, y], [x0 + 0.5, y], [x0 + 1.0, y]];
     for (a, b, turn, expected) in [
@@ -341,7 +341,7 @@ fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Edge>) {
 fn couple(
     a: &(Vec<[f64; 2]>, Vec<Edge>),
     b: &(Vec<[f64; 2]>, Vec<Edge>),
-    kind: Kind,
+    kind: JumpScheme,
     points: Points,
 ) -> Coupling {
     let lower = side("lower.top", &a.0, &a.1);
@@ -370,7 +370,7 @@ fn matched_quadratic_sides_are_the_classical_six_node_element() {
         (Points::Gauss, [(-0.6f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6f64.sqrt(), 5.0 / 9.0)]),
         (Points::Lobatto, [(-1.0, 1.0 / 3.0), (0.0, 4.0 / 3.0), (1.0, 1.0 / 3.0)]),
     ] {
-        for kind in [Kind::Pointwise, Kind::Projected] {
+        for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
             let c = couple(&a, &b, kind, points);
             let k = stiffness(&c, [3.0, 2.0]);
             let n = 7; // nodes of a side: 4 ends, 3 mid-nodes
@@ -409,13 +409,13 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
         let (s_a, s_b) = (even(0.0, 2.0, n_a), graded(0.0, 2.0, n_b.max(2), 3.0));
         let (a, b) = (quadratic_side(&s_a, true), quadratic_side(&s_b, false));
         let straight = (s_b.iter().map(|&s| [s, 0.3]).collect::<Vec<_>>(), edges(s_b.len(), false));
-        for kind in [Kind::Pointwise, Kind::Projected] {
+        for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
             let c = couple(&a, &b, kind, Points::Gauss);
             let (f, g) = (|x: f64| 0.1 - x + 0.5 * x * x, |x: f64| 0.3 * x - 0.2 * x * x);
             for (point, jump) in c.points.iter().zip(jumps(&c, &columns(&c, &a.0, &b.0, f, g))) {
                 assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
             }
-            if kind == Kind::Projected {
+            if kind == JumpScheme::Projected {
                 assert_eq!(c.points.len(), 3 * (c.grid.len() - 1));
             }
             let mixed = couple(&a, &straight, kind, Points::Gauss);
@@ -425,7 +425,7 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
             {
                 assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
             }
-            if kind == Kind::Projected {
+            if kind == JumpScheme::Projected {
                 assert_eq!(mixed.points.len(), 2 * (mixed.grid.len() - 1));
             }
         }

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 /// A curve by its shape, scaled to a length of about one.
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum JumpScheme {
     Straight,
     Arc(f64),
     Wave(f64),
@@ -21,20 +21,20 @@ enum Kind {
     Kinked(f64),
 }
 
-impl Kind {
+impl JumpScheme {
     fn at(self, t: f64) -> [f64; 2] {
         match self {
-            Kind::Straight => [t, 0.3 * t],
-            Kind::Arc(angle) => {
+            JumpScheme::Straight => [t, 0.3 * t],
+            JumpScheme::Arc(angle) => {
                 let (sin, cos) = (angle * (t - 0.5)).sin_cos();
                 [sin / angle, cos / angle]
             }
-            Kind::Wave(height) => [t, height * (2.0 * PI * t).sin()],
-            Kind::Circle => {
+            JumpScheme::Wave(height) => [t, height * (2.0 * PI * t).sin()],
+            JumpScheme::Circle => {
                 let (sin, cos) = (2.0 * PI * t).sin_cos();
                 [cos / PI, -sin / PI]
             }
-            Kind::Kinked(turn) => {
+            JumpScheme::Kinked(turn) => {
                 let (sin, cos) = turn.sin_cos();
                 if t <= 0.5 { [t, 0.0] } else { [0.5 + (t - 0.5) * cos, (t - 0.5) * sin] }
             }
@@ -42,7 +42,7 @@ impl Kind {
     }
 
     fn closed(self) -> bool {
-        matches!(self, Kind::Circle)
+        matches!(self, JumpScheme::Circle)
     }
 
     /// Parameters of the nodes from random steps; the kink is a node.
@@ -52,7 +52,7 @@ impl Kind {
         steps.iter().for_each(|step| t.push(t[t.len() - 1] + step / sum));
         let last = t.len() - 1;
         t[last] = 1.0;
-        if let Kind::Kinked(_) = self {
+        if let JumpScheme::Kinked(_) = self {
             let nearest = (1..last).min_by(|&i, &j| (t[i] - 0.5).abs().total_cmp(&(t[j] - 0.5).abs()));
             let nearest = nearest.unwrap_or(0);
             let at = t[nearest];
@@ -66,7 +66,7 @@ impl Kind {
 
 #[derive(Debug, Clone)]
 struct Pair {
-    kind: Kind,
+    kind: JumpScheme,
     t: [Vec<f64>; 2],
     quadratic: [bool; 2],
 }
@@ -78,7 +78,7 @@ impl Pair {
         let shift = if kind.closed() { 0.37 * side as f64 } else { 0.0 };
         let t: Vec<f64> = t.iter().map(|t| t + shift).collect();
         let mut curve = Curve::new(&t, kind.closed(), self.quadratic[side], side == 1, &|t| kind.at(t));
-        if let Kind::Kinked(_) = kind {
+        if let JumpScheme::Kinked(_) = kind {
             curve.corners = (0..t.len()).filter(|&i| t[i] == 0.5).collect();
         }
         curve
@@ -99,11 +99,11 @@ fn steps(many: bool) -> impl Strategy<Value = Vec<f64>> {
 
 fn pairs() -> impl Strategy<Value = Pair> {
     let kind = prop_oneof![
-        Just(Kind::Straight),
-        (0.2f64..4.0).prop_map(Kind::Arc),
-        (0.02f64..0.15).prop_map(Kind::Wave),
-        Just(Kind::Circle),
-        (-1.6f64..1.6).prop_filter("a kink", |turn| turn.abs() > 0.01).prop_map(Kind::Kinked),
+        Just(JumpScheme::Straight),
+        (0.2f64..4.0).prop_map(JumpScheme::Arc),
+        (0.02f64..0.15).prop_map(JumpScheme::Wave),
+        Just(JumpScheme::Circle),
+        (-1.6f64..1.6).prop_filter("a kink", |turn| turn.abs() > 0.01).prop_map(JumpScheme::Kinked),
     ];
     (kind, steps(true), steps(true), any::<[bool; 2]>()).prop_map(|(kind, a, b, quadratic)| Pair {
         kind,
@@ -133,7 +133,11 @@ fn differ(f: &[[f64; 2]], g: &[[f64; 2]]) -> f64 {
 
 const K: [f64; 2] = [3.0, 1.7];
 
-fn couple(a: &Curve, b: &Curve, scheme: (midplane::coupling::Kind, midplane::coupling::Points)) -> Coupling {
+fn couple(
+    a: &Curve,
+    b: &Curve,
+    scheme: (midplane::coupling::JumpScheme, midplane::coupling::Points),
+) -> Coupling {
     join(&[a], &[b], scheme).unwrap()
 }
 

@@ -89,10 +89,10 @@ fn a_snap_releases_what_the_closed_form_says() {
 }
 
 /// Keys and values.
-type Settings = &'static [(&'static str, &'static str)];
+type NewtonSettings = &'static [(&'static str, &'static str)];
 
 /// Scenes whose balance is looked at: name, number of the step, coarser meshes.
-const SCENES: [(&str, &str, Settings); 5] = [
+const SCENES: [(&str, &str, NewtonSettings); 5] = [
     ("tension", "1", &[]),
     (
         "shear_box/cracking.json",

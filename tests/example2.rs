@@ -9,7 +9,7 @@
 mod common;
 
 use common::*;
-use midplane::law::{Law, State as LawState, Stepping};
+use midplane::law::{Integration, Law, State as LawState};
 use midplane::shape::Shape;
 use nalgebra::Vector2;
 
@@ -49,7 +49,7 @@ fn point_curve(law: &Law, sigma: f64, tolerance: f64) -> Vec<Vector2<f64>> {
     slips
         .map(|slip| {
             let jump = Vector2::new(sigma / K, slip); // no dilatancy: σ stays
-            state = law.respond(jump, &state, Stepping::Tolerance(tolerance)).unwrap().state;
+            state = law.respond(jump, &state, Integration::Tolerance(tolerance)).unwrap().state;
             state.traction
         })
         .collect()

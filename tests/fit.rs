@@ -12,7 +12,7 @@ mod common;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use common::*;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
@@ -33,7 +33,7 @@ fn scene(plane: &str, sides: [&str; 2], gap: &str, step: &str) -> String {
 }
 
 /// Position and normal traction at all law points of the joint.
-fn pressures<'a>(problem: &'a Problem, state: &'a State) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
+fn pressures<'a>(problem: &'a Problem, state: &'a ModelState) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
     let points = problem.model.joints[0].coupling.points.iter();
     points.zip(&state.snapshot.tractions[0]).map(|(point, t)| (point.position, t[0]))
 }

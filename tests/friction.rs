@@ -5,7 +5,7 @@ mod common;
 
 use common::*;
 use midplane::error::Error;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
@@ -33,7 +33,7 @@ fn scene(young: [f64; 2], law: [f64; 3], coupling: &str, steps: &str) -> String 
 }
 
 /// Length that slides, over the whole.
-fn sliding(problem: &Problem, state: &State) -> f64 {
+fn sliding(problem: &Problem, state: &ModelState) -> f64 {
     let points = problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.states[0]);
     let slides = points.filter(|(_, state)| state.status == SLIP).map(|(point, _)| point.weight);
     slides.sum::<f64>() / problem.model.joints[0].coupling.midplane.length

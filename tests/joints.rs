@@ -11,13 +11,13 @@ use std::time::Instant;
 
 use chains::*;
 use common::*;
-use midplane::coupling::{Coupling, Gap, Kind, Points, Scheme};
-use midplane::history::State;
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme};
+use midplane::history::ModelState;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
-const PROJECTED: (Kind, Points) = (Kind::Projected, Points::Gauss);
+const PROJECTED: (JumpScheme, Points) = (JumpScheme::Projected, Points::Gauss);
 /// Uniform compression, E = 1e4, ν = 0: σ_yy = −p, nothing else.
 const P: f64 = 10.0;
 const KN: f64 = 1e6;
@@ -55,7 +55,7 @@ fn pressed(
 }
 
 /// Two layers 0..1 wide with the given x of the joint's nodes, meeting at y = 0, in a plane moved by `to`.
-fn layers(x: [&[f64]; 2], shape: Shape, to: impl Fn(f64, f64) -> [f64; 2]) -> (Problem, State) {
+fn layers(x: [&[f64]; 2], shape: Shape, to: impl Fn(f64, f64) -> [f64; 2]) -> (Problem, ModelState) {
     layers_joined(x, shape, KN, to)
 }
 
@@ -64,7 +64,7 @@ fn layers_joined(
     shape: Shape,
     kn: f64,
     to: impl Fn(f64, f64) -> [f64; 2],
-) -> (Problem, State) {
+) -> (Problem, ModelState) {
     let place = |x: f64, y: f64| to(x, y);
     let a = rectangle(x[0], &even(-0.5, 0.0, 2), shape, place);
     let b = rectangle(x[1], &even(0.0, 0.5, 2), shape, place);
@@ -82,7 +82,7 @@ fn layers_joined(
 }
 
 /// Largest error of tractions, relative to the pressure.
-fn error(state: &State) -> f64 {
+fn error(state: &ModelState) -> f64 {
     let all = state.snapshot.tractions.iter().flatten();
     all.map(|t| (t[0] + P).abs().max(t[1].abs()) / P).fold(0.0, f64::max)
 }
@@ -110,7 +110,7 @@ fn b1_one_edge_against_a_thousand() {
     let (n, m) = (2, 2000);
     let line = |n: usize, forward: bool| Curve::new(&even(0.0, 1.0, n), false, true, forward, &|t| [t, 0.0]);
     let (a, b) = (line(n, false), line(m, true));
-    for kind in [Kind::Projected, Kind::Pointwise] {
+    for kind in [JumpScheme::Projected, JumpScheme::Pointwise] {
         let c = join(&[&a], &[&b], (kind, Points::Gauss)).unwrap();
         check(n, m, &c);
         let t: Vec<[f64; 2]> = c.points.iter().map(|p| [1.0 + p.s, 0.0]).collect();
@@ -287,7 +287,7 @@ fn b24_gaps_and_overlaps_are_refused_with_size_and_place() {
     }
     // within 1e-3 of the length the sides are taken as one; a gap that is meant may be larger, an overlap may not
     assert!(join(&[&a], &[&at(9e-4, 9e-4)], PROJECTED).is_ok());
-    let open = Scheme { kind: Kind::Projected, points: Points::Gauss, gap: Gap::Open };
+    let open = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Open };
     let c = join_with(&[&a], &[&at(0.02, 0.04)], open).unwrap();
     assert!(c.points.iter().all(|p| p.gap > 0.0199 && p.gap < 0.0401));
     assert!(join_with(&[&a], &[&at(-0.02, -0.02)], open).is_err());

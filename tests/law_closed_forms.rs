@@ -15,32 +15,32 @@
 mod law_help;
 
 use law_help::{EXAMPLE_2, Reference, close};
-use midplane::law::path::{Control, Controlled, Path, Row, Segment, drive};
-use midplane::law::{Cracking, Law, State, Stepping};
+use midplane::law::path::{ComponentControl, Controlled, LawPath, PathRow, PathSegment, drive};
+use midplane::law::{Cracking, Integration, Law, State};
 use nalgebra::Vector2;
 
-fn jump(start: f64, end: f64) -> Control {
-    Control { control: Controlled::Displacement, start, end }
+fn jump(start: f64, end: f64) -> ComponentControl {
+    ComponentControl { control: Controlled::Displacement, start, end }
 }
 
-fn stress(start: f64, end: f64) -> Control {
-    Control { control: Controlled::Stress, start, end }
+fn stress(start: f64, end: f64) -> ComponentControl {
+    ComponentControl { control: Controlled::Stress, start, end }
 }
 
-fn along(law: &Cracking, program: Vec<Segment>, stepping: Stepping) -> Vec<Row> {
+fn along(law: &Cracking, program: Vec<PathSegment>, stepping: Integration) -> Vec<PathRow> {
     law.check().unwrap();
-    drive(&Law::Cracking(*law), &Path { program, initial: None }, &State::default(), stepping).unwrap()
+    drive(&Law::Cracking(*law), &LawPath { program, initial: None }, &State::default(), stepping).unwrap()
 }
 
-fn tension(law: &Cracking, opening: f64, points: usize, stepping: Stepping) -> Vec<Row> {
-    along(law, vec![Segment { n: jump(0.0, opening), t: jump(0.0, 0.0), points }], stepping)
+fn tension(law: &Cracking, opening: f64, points: usize, stepping: Integration) -> Vec<PathRow> {
+    along(law, vec![PathSegment { n: jump(0.0, opening), t: jump(0.0, 0.0), points }], stepping)
 }
 
 /// Compression σ first, then slip at that σ.
-fn shear(law: &Cracking, sigma: f64, slip: f64, points: usize, stepping: Stepping) -> Vec<Row> {
+fn shear(law: &Cracking, sigma: f64, slip: f64, points: usize, stepping: Integration) -> Vec<PathRow> {
     let program = vec![
-        Segment { n: stress(0.0, sigma), t: jump(0.0, 0.0), points: 1 },
-        Segment { n: stress(sigma, sigma), t: jump(0.0, slip), points },
+        PathSegment { n: stress(0.0, sigma), t: jump(0.0, 0.0), points: 1 },
+        PathSegment { n: stress(sigma, sigma), t: jump(0.0, slip), points },
     ];
     along(law, program, stepping)
 }
@@ -69,7 +69,7 @@ fn pure_tension_follows_its_closed_form() {
         let e = (-alpha).exp();
         let sigma_at = |xi: f64| chi * (1.0 - e * xi / (1.0 + (e - 1.0) * xi));
         let opening = |xi: f64| sigma_at(xi) / kn + energy / chi * (-e * (1.0 - xi).ln() + (1.0 - e) * xi);
-        for row in &tension(&law, 5e-4, 50, Stepping::Tolerance(1e-10))[1..] {
+        for row in &tension(&law, 5e-4, 50, Integration::Tolerance(1e-10))[1..] {
             let (mut lo, mut hi) = (0.0, 1.0); // u(ξ) grows: ξ by halving
             for _ in 0..60 {
                 let middle = 0.5 * (lo + hi);
@@ -84,7 +84,7 @@ fn pure_tension_follows_its_closed_form() {
 #[test]
 fn linear_softening_in_work_is_exponential_in_opening() {
     let law = EXAMPLE_2;
-    for row in &tension(&law, 3e-4, 30, Stepping::Tolerance(1e-10))[1..] {
+    for row in &tension(&law, 3e-4, 30, Integration::Tolerance(1e-10))[1..] {
         let spent = row.state.jump_plastic.x * law.tensile_strength / law.fracture_energy_i;
         close(row.state.traction.x, law.tensile_strength * (-spent).exp(), 1e-9, "σ");
     }
@@ -97,7 +97,7 @@ fn one_backward_euler_step_in_tension_is_closed() {
     let mut old = State::default();
     for opening in [1e-5, 5e-5, 3e-4] {
         let new = Law::Cracking(law)
-            .respond(Vector2::new(opening, 0.0), &old, Stepping::BackwardEuler(1))
+            .respond(Vector2::new(opening, 0.0), &old, Integration::BackwardEuler(1))
             .unwrap()
             .state;
         let plastic = new.jump_plastic.x - old.jump_plastic.x;
@@ -114,7 +114,7 @@ fn shear_at_constant_compression_has_its_peak_its_slip_and_its_residual() {
         let (chi, c, t) = (law.tensile_strength, law.cohesion, law.tan_friction);
         let peak = ((c - sigma * t).powi(2) - (c - chi * t).powi(2)).sqrt();
         let at_peak = peak / law.tangential_stiffness;
-        let rows = shear(&law, sigma, at_peak, 4, Stepping::Tolerance(1e-8));
+        let rows = shear(&law, sigma, at_peak, 4, Integration::Tolerance(1e-8));
         close(rows.last().unwrap().state.traction.y, peak, 1e-12 * peak, "peak");
         assert_eq!(rows.last().unwrap().state.fracture_work, 0.0);
 
@@ -126,14 +126,14 @@ fn shear_at_constant_compression_has_its_peak_its_slip_and_its_residual() {
         let slip = |from: f64, to: f64| {
             integral(|w| 1.0 / (tau(w) + sigma * law.strength(w).tan_friction), from, to)
         };
-        for row in &shear(&law, sigma, 4e-4, 10, Stepping::Tolerance(1e-10))[2..] {
+        for row in &shear(&law, sigma, 4e-4, 10, Integration::Tolerance(1e-10))[2..] {
             let w = row.state.fracture_work;
             let expected = slip(0.0, w.min(law.fracture_energy_i)) + slip(law.fracture_energy_i.min(w), w);
             close(row.state.traction.y, tau(w), 1e-12 * peak, "τ_y(σ; W)");
             close(row.state.jump_plastic.y / expected, 1.0, 1e-9, "slip(W)");
         }
 
-        let last = shear(&law, sigma, 3e-2, 3, Stepping::Tolerance(1e-6)).pop().unwrap();
+        let last = shear(&law, sigma, 3e-2, 3, Integration::Tolerance(1e-6)).pop().unwrap();
         close(last.state.traction.y, -sigma * residual, 1e-9, "residual friction");
     }
 }
@@ -143,7 +143,7 @@ fn under_very_high_compression_cohesion_is_lost_exponentially() {
     // the hyperbola is left for its asymptote like b²/2τ: 4²/(2·0.88·1e6) ≈ 1e-5
     let sigma = -1e6;
     let law = Cracking { fracture_energy_i: 2e-3, ..EXAMPLE_2 };
-    for row in &shear(&law, sigma, 0.1 + 2e-3, 50, Stepping::Tolerance(1e-9))[2..] {
+    for row in &shear(&law, sigma, 0.1 + 2e-3, 50, Integration::Tolerance(1e-9))[2..] {
         let slip = row.state.jump_plastic.y;
         let above = row.state.traction.y + sigma * law.tan_friction;
         let expected = law.cohesion * (-law.cohesion * slip / law.fracture_energy_iia).exp();
@@ -154,7 +154,7 @@ fn under_very_high_compression_cohesion_is_lost_exponentially() {
 }
 
 /// Area under rows by the trapezium rule.
-fn area(rows: &[Row], force: impl Fn(&State) -> f64, way: impl Fn(&State) -> f64) -> f64 {
+fn area(rows: &[PathRow], force: impl Fn(&State) -> f64, way: impl Fn(&State) -> f64) -> f64 {
     rows.windows(2)
         .map(|pair| {
             let (a, b) = (&pair[0].state, &pair[1].state);
@@ -167,12 +167,12 @@ fn area(rows: &[Row], force: impl Fn(&State) -> f64, way: impl Fn(&State) -> f64
 fn the_areas_under_the_curves_are_the_fracture_energies() {
     for alpha in [0.0, -1.0, 0.7] {
         let law = Cracking { alpha_tensile_strength: alpha, alpha_cohesion: alpha, ..EXAMPLE_2 };
-        let rows = tension(&law, 3e-3, 100_000, Stepping::Tolerance(1e-6)); // the peak is one of the rows
+        let rows = tension(&law, 3e-3, 100_000, Integration::Tolerance(1e-6)); // the peak is one of the rows
         let found = area(&rows, |s| s.traction.x, |s| s.jump.x) / law.fracture_energy_i;
         close(found, 1.0, 1e-6, "area in tension / G_I");
 
         for sigma in [-0.5, -30.0] {
-            let rows = shear(&law, sigma, 2e-2, 100_000, Stepping::Tolerance(1e-4));
+            let rows = shear(&law, sigma, 2e-2, 100_000, Integration::Tolerance(1e-4));
             let (c, t) = (law.cohesion, law.tan_friction);
             let peak = ((c - sigma * t).powi(2) - (c - law.tensile_strength * t).powi(2)).sqrt();
             let above = |s: &State| match s.fracture_work {
@@ -192,7 +192,7 @@ fn with_sigma_held_at_zero_the_shear_stress_is_gone_after_a_finite_slip() {
     let Law::Cracking(law) = reference.law else { unreachable!() };
     let mut path = reference.path.clone();
     path.program[0].points = 3000;
-    let rows = drive(&reference.law, &path, &State::default(), Stepping::Tolerance(1e-10)).unwrap();
+    let rows = drive(&reference.law, &path, &State::default(), Integration::Tolerance(1e-10)).unwrap();
     let held: Vec<&State> = rows.iter().map(|row| &row.state).filter(|s| s.status == 3).collect();
     let tau = |w: f64| {
         let now = law.strength(w);
@@ -238,7 +238,7 @@ const NEWTON_PER_MILLIMETRE: [(f64, f64, f64); 7] = [
 fn example_2_of_the_paper_in_both_readings_of_its_energies() {
     let literal = Cracking { fracture_energy_i: 0.2, fracture_energy_iia: 2.0, ..EXAMPLE_2 };
     for (law, table) in [(literal, LITERAL), (EXAMPLE_2, NEWTON_PER_MILLIMETRE)] {
-        let rows = shear(&law, -10.0, 1e-3, 400, Stepping::Tolerance(1e-6));
+        let rows = shear(&law, -10.0, 1e-3, 400, Integration::Tolerance(1e-6));
         for (slip, tau, work) in table {
             let row = rows.iter().find(|row| (row.state.jump.y - slip).abs() < 1e-12).unwrap();
             close(row.state.traction.y, tau, 1e-6 * tau, "τ");
@@ -280,8 +280,8 @@ fn mixed_ways_meet_the_independent_values() {
         ..EXAMPLE_2
     };
     for (opening, slip, table) in [(2e-4, 4e-5, &MOSTLY_OPENING[..]), (1e-4, 1e-4, &AT_45_DEGREES[..])] {
-        let program = vec![Segment { n: jump(0.0, opening), t: jump(0.0, slip), points: 400 }];
-        let rows = along(&law, program, Stepping::Tolerance(1e-7));
+        let program = vec![PathSegment { n: jump(0.0, opening), t: jump(0.0, slip), points: 400 }];
+        let rows = along(&law, program, Integration::Tolerance(1e-7));
         for &(fraction, sigma, tau, work) in table {
             let state = &rows[(400.0 * fraction).round() as usize].state;
             close(state.traction.x, sigma, 1e-6, "σ");
@@ -301,8 +301,10 @@ fn at_45_degrees_sigma_falls_to_zero_and_stays() {
         tan_friction_residual: Some(0.6),
         ..EXAMPLE_2
     };
-    for stepping in [Stepping::BackwardEuler(1), Stepping::BackwardEuler(7), Stepping::Tolerance(1e-4)] {
-        let program = vec![Segment { n: jump(0.0, 2e-4), t: jump(0.0, 2e-4), points: 400 }];
+    for stepping in
+        [Integration::BackwardEuler(1), Integration::BackwardEuler(7), Integration::Tolerance(1e-4)]
+    {
+        let program = vec![PathSegment { n: jump(0.0, 2e-4), t: jump(0.0, 2e-4), points: 400 }];
         let rows = along(&law, program, stepping);
         let reached = rows.iter().position(|row| row.state.status == 3).unwrap();
         let statuses: Vec<u8> = rows[reached..].iter().map(|row| row.state.status).collect();

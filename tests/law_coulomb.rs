@@ -11,10 +11,10 @@
 mod law_help;
 
 use law_help::close;
-use midplane::law::{Coulomb, Elastic, Law, Response, State, Stepping};
+use midplane::law::{Coulomb, Elastic, Integration, Law, Response, State};
 use nalgebra::{Matrix2, Vector2};
 
-const STEPPING: Stepping = Stepping::Tolerance(1e-4);
+const STEPPING: Integration = Integration::Tolerance(1e-4);
 
 const BLOCK: Coulomb = Coulomb {
     normal_stiffness: 1e4,

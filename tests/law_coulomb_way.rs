@@ -15,14 +15,14 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Coulomb, Law, N, Response, State, Stepping, T};
+use midplane::law::{Coulomb, Integration, Law, N, Response, State, T};
 use nalgebra::{Matrix3x2, Vector2, Vector3};
 use std::collections::BTreeMap;
 
 const OPEN: u8 = 4;
 
 fn respond(law: &Coulomb, jump: Vector2<f64>, old: &State) -> Response {
-    Law::Coulomb(*law).respond(jump, old, Stepping::Tolerance(1e-4)).unwrap()
+    Law::Coulomb(*law).respond(jump, old, Integration::Tolerance(1e-4)).unwrap()
 }
 
 /// A law, a state that a few steps lead to, and the end of a way from there.

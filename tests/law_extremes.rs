@@ -7,7 +7,7 @@
 mod law_help;
 
 use law_help::{EXAMPLE_2, Random, close};
-use midplane::law::{Cracking, Inadmissible, Law, State, Stepping};
+use midplane::law::{Cracking, Inadmissible, Integration, Law, State};
 use nalgebra::{Matrix2, Vector2};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {
@@ -19,7 +19,7 @@ fn refused(law: &Cracking, key: &str, parts: &[&str]) {
     }
 }
 
-fn walk(law: &Cracking, ways: &[[f64; 2]], stepping: Stepping) -> Vec<State> {
+fn walk(law: &Cracking, ways: &[[f64; 2]], stepping: Integration) -> Vec<State> {
     law.check().unwrap();
     let mut state = State::default();
     ways.iter()
@@ -34,7 +34,7 @@ fn walk(law: &Cracking, ways: &[[f64; 2]], stepping: Stepping) -> Vec<State> {
         .collect()
 }
 
-const STEPPINGS: [Stepping; 2] = [Stepping::Tolerance(1e-4), Stepping::BackwardEuler(5)];
+const STEPPINGS: [Integration; 2] = [Integration::Tolerance(1e-4), Integration::BackwardEuler(5)];
 
 #[test]
 fn b13_friction_from_none_to_ten() {
@@ -166,7 +166,9 @@ fn b19_cohesion_may_go_first_only_as_long_as_the_vertex_stays_inside() {
 #[test]
 fn b20_without_dilatancy_sigma_sticks_to_zero() {
     // W ≥ G_I and opening with slip: nothing is divided by σ_dil = 0, σ is 0 and not −0.0…1
-    for stepping in [Stepping::Tolerance(1e-6), Stepping::BackwardEuler(1), Stepping::BackwardEuler(50)] {
+    for stepping in
+        [Integration::Tolerance(1e-6), Integration::BackwardEuler(1), Integration::BackwardEuler(50)]
+    {
         let ways: Vec<[f64; 2]> = (1..=100).map(|k| [2e-6 * k as f64, 2e-6 * k as f64]).collect();
         let states = walk(&EXAMPLE_2, &ways, stepping);
         let first = states.iter().position(|state| state.traction.x == 0.0).unwrap();
@@ -211,7 +213,7 @@ fn b21_unloading_is_elastic_reversal_yields_on_the_other_side_and_closing_carrie
 fn a_nearly_rigid_interface_cracks_like_a_stiff_one() {
     for stiffness in [1e7, 1e10, 1e13, 1e16] {
         let law = Cracking { normal_stiffness: stiffness, tangential_stiffness: stiffness, ..EXAMPLE_2 };
-        let state = walk(&law, &[[1e-4, 0.0]], Stepping::Tolerance(1e-6))[0];
+        let state = walk(&law, &[[1e-4, 0.0]], Integration::Tolerance(1e-6))[0];
         let plastic = 1e-4 - state.traction.x / stiffness;
         close(state.traction.x, 3.0 * (-3.0 * plastic / 2e-4).exp(), 1e-5, "σ");
     }

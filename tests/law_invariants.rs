@@ -7,7 +7,7 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Cracking, Law, Response, State, Stepping};
+use midplane::law::{Cracking, Integration, Law, Response, State};
 use nalgebra::Vector2;
 
 /// Of the strength or the traction.
@@ -70,8 +70,8 @@ fn a_million_random_steps_keep_every_promise() {
             }
             let jump = state.jump + (drift + random.direction()) * size;
             let stepping = match random.coin() {
-                true => Stepping::BackwardEuler(1),
-                false => Stepping::Tolerance(1e-3),
+                true => Integration::BackwardEuler(1),
+                false => Integration::Tolerance(1e-3),
             };
             let response = match Law::Cracking(law).respond(jump, &state, stepping) {
                 Ok(response) => response,
@@ -102,8 +102,9 @@ fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothin
         for _ in 0..20 {
             let size = random.power(-8.0, -4.5);
             let jump = state.jump + random.direction() * size;
-            let go =
-                |jump, old: &State| Law::Cracking(law).respond(jump, old, Stepping::Tolerance(1e-3)).unwrap();
+            let go = |jump, old: &State| {
+                Law::Cracking(law).respond(jump, old, Integration::Tolerance(1e-3)).unwrap()
+            };
             state = go(jump, &state).state;
             mirrored = go(mirror(jump), &mirrored).state;
             assert_eq!(state.traction, mirror(mirrored.traction));
@@ -127,7 +128,7 @@ fn newton_agrees_with_the_safe_solver() {
         for _ in 0..20 {
             let jump = state.jump + random.direction() * random.power(-8.0, softening.log10());
             let (traction, work) = law.respond_nested(jump, &state);
-            let response = Law::Cracking(law).respond(jump, &state, Stepping::BackwardEuler(1)).unwrap();
+            let response = Law::Cracking(law).respond(jump, &state, Integration::BackwardEuler(1)).unwrap();
             let off = (response.traction - traction).amax();
             assert!(off <= 1e-7 * law.cohesion, "{off:e}: {law:?} {state:?} {jump:?}");
             assert!((response.state.fracture_work - work).abs() <= 1e-11 * law.fracture_energy_i);

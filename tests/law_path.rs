@@ -4,11 +4,11 @@
 mod law_help;
 
 use law_help::{EXAMPLE_2, Reference, close};
-use midplane::law::path::{COLUMNS, Path, PathError, Row, drive, write_csv};
-use midplane::law::{Coulomb, Elastic, Law, State, Stepping};
+use midplane::law::path::{COLUMNS, LawPath, PathError, PathRow, drive, write_csv};
+use midplane::law::{Coulomb, Elastic, Integration, Law, State};
 use nalgebra::Vector2;
 
-const STEPPING: Stepping = Stepping::Tolerance(1e-6);
+const STEPPING: Integration = Integration::Tolerance(1e-6);
 
 const BLOCK: Law = Law::Coulomb(Coulomb {
     normal_stiffness: 1e4,
@@ -19,7 +19,7 @@ const BLOCK: Law = Law::Coulomb(Coulomb {
 });
 
 /// Segments as (control, start, end) of n, the same of t, and points; control "d" or "s".
-fn path(segments: &[(&str, f64, f64, &str, f64, f64, usize)]) -> Path {
+fn path(segments: &[(&str, f64, f64, &str, f64, f64, usize)]) -> LawPath {
     let word = |control: &str| if control == "d" { "displacement" } else { "stress" };
     let program: Vec<serde_json::Value> = segments
         .iter()
@@ -34,7 +34,7 @@ fn path(segments: &[(&str, f64, f64, &str, f64, f64, usize)]) -> Path {
     serde_json::from_value(serde_json::json!({ "program": program })).unwrap()
 }
 
-fn end(rows: &[Row]) -> State {
+fn end(rows: &[PathRow]) -> State {
     rows.last().unwrap().state
 }
 
@@ -50,7 +50,7 @@ fn a_row_is_stored_at_the_start_and_at_every_point() {
 fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     let springs = Law::Elastic(Elastic { normal_stiffness: 1e3, tangential_stiffness: 2e3 });
     let straight = path(&[("d", 0.0, 1.0, "s", 0.0, 4.0, 1)]);
-    let csv = |law: &Law, path: &Path| {
+    let csv = |law: &Law, path: &LawPath| {
         let mut out = Vec::new();
         write_csv(&drive(law, path, &State::default(), STEPPING).unwrap(), &mut out).unwrap();
         String::from_utf8(out).unwrap()
@@ -131,13 +131,13 @@ fn a_program_may_begin_at_a_given_state() {
         "u_n": value("u_n"), "u_t": value("u_t"), "up_n": value("up_n"), "up_t": value("up_t"), "W": value("W"),
     });
     let second = serde_json::json!({ "initial": initial, "program": [reference.file["program"][2]] });
-    let path: Path = serde_json::from_value(second).unwrap();
+    let path: LawPath = serde_json::from_value(second).unwrap();
     let rows = drive(&reference.law, &path, &State::default(), STEPPING).unwrap();
     let last = reference.file["points"].as_array().unwrap().last().unwrap();
     close(end(&rows).traction.y, last["tau"].as_f64().unwrap(), 1e-5, "τ");
 
     let outside = serde_json::json!({ "initial": { "u_n": 1.0 }, "program": [reference.file["program"][2]] });
-    let path: Path = serde_json::from_value(outside).unwrap();
+    let path: LawPath = serde_json::from_value(outside).unwrap();
     let refused = drive(&reference.law, &path, &State::default(), STEPPING).unwrap_err().to_string();
     assert!(refused.starts_with("initial: "), "{refused}");
 }

@@ -8,7 +8,7 @@
 mod law_help;
 
 use law_help::{CURVES, Reference};
-use midplane::law::Stepping;
+use midplane::law::Integration;
 use std::time::Instant;
 
 #[test]
@@ -16,7 +16,7 @@ fn plain_backward_euler_makes_the_errors_listed_with_the_curves() {
     for name in CURVES {
         let reference = Reference::read(name);
         for steps in [10, 100] {
-            let errors = reference.errors(&reference.drive(Stepping::BackwardEuler(steps)));
+            let errors = reference.errors(&reference.drive(Integration::BackwardEuler(steps)));
             let listed = &reference.file["accuracy"]["backward_euler_max_error_with_n_substeps_per_point"];
             let rounding = [1e-12, 1e-12, 1e-12]; // MPa, MPa, –: where the list has zeros
             for (i, key) in ["sigma", "tau", "W_over_gf1"].into_iter().enumerate() {
@@ -32,7 +32,7 @@ fn under_error_control_the_curves_are_met_to_the_tolerance() {
     for name in CURVES {
         let reference = Reference::read(name);
         let begin = Instant::now();
-        let errors = reference.errors(&reference.drive(Stepping::Tolerance(1e-6)));
+        let errors = reference.errors(&reference.drive(Integration::Tolerance(1e-6)));
         let seconds = begin.elapsed().as_secs_f64();
         println!(
             "{name}: {:.1e} MPa, {:.1e} MPa, {:.1e} G_I, {seconds:.4} s",
@@ -49,7 +49,7 @@ fn the_error_follows_the_tolerance() {
     for name in CURVES {
         let reference = Reference::read(name);
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-            let errors = reference.errors(&reference.drive(Stepping::Tolerance(tolerance)));
+            let errors = reference.errors(&reference.drive(Integration::Tolerance(tolerance)));
             let strength = reference.file["parameters"]["c0"].as_f64().unwrap(); // the larger one in all ten
             assert!(errors[0].max(errors[1]) <= tolerance * strength, "{name}, {tolerance:e}: {errors:?}");
         }

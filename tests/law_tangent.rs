@@ -9,7 +9,7 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Cracking, Law, Response, State, Stepping};
+use midplane::law::{Cracking, Integration, Law, Response, State};
 use nalgebra::{Matrix2, Vector2};
 
 /// Largest difference, relative to the elastic stiffness (or the stiffness itself where it is larger).
@@ -41,8 +41,10 @@ fn random_state(random: &mut Random, law: &Cracking) -> (State, Vector2<f64>) {
     let mut state = State::default();
     for _ in 0..random.between(0.0, 6.0) as usize {
         let step = (drift + random.direction()) * size(random);
-        state =
-            Law::Cracking(*law).respond(state.jump + step, &state, Stepping::Tolerance(1e-3)).unwrap().state;
+        state = Law::Cracking(*law)
+            .respond(state.jump + step, &state, Integration::Tolerance(1e-3))
+            .unwrap()
+            .state;
     }
     (state, state.jump + (drift + random.direction()) * size(random))
 }
@@ -109,7 +111,7 @@ fn with_backward_euler_the_stiffness_is_the_derivative() {
             let law = random.cracking();
             let (old, jump) = random_state(&mut random, &law);
             let respond =
-                |jump| Law::Cracking(law).respond(jump, &old, Stepping::BackwardEuler(steps)).unwrap();
+                |jump| Law::Cracking(law).respond(jump, &old, Integration::BackwardEuler(steps)).unwrap();
             match check(&law, &respond, jump, "backward Euler") {
                 Some(_) => checked += 1,
                 None => left_out += 1,
@@ -129,7 +131,7 @@ fn a_replay_at_the_same_jump_changes_nothing() {
         let (old, jump) = random_state(&mut random, &law);
         let mut lengths = Vec::new();
         let recorded = law.respond_recording(jump, &old, 1e-4, &mut lengths).unwrap();
-        assert_eq!(recorded, Law::Cracking(law).respond(jump, &old, Stepping::Tolerance(1e-4)).unwrap());
+        assert_eq!(recorded, Law::Cracking(law).respond(jump, &old, Integration::Tolerance(1e-4)).unwrap());
         assert_eq!(recorded, law.respond_replaying(jump, &old, &lengths).unwrap());
     }
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use midplane::assembly::{Pattern, Symmetric};
+use midplane::assembly::{Pattern, Symmetric, add_stiffness};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 use midplane::solver::{Order, Symbolic, nested_dissection};
@@ -115,7 +115,7 @@ fn both_orders_give_the_same_answer() {
     let (pattern, order) = order(&problem);
     let mut matrix: Symmetric = problem.model.continuum(&pattern);
     let joint = &problem.model.joints[0];
-    joint.add_stiffness(&pattern, &[1e6, 0.0, 0.0, 1e6].repeat(joint.coupling.points.len()), &mut matrix);
+    add_stiffness(joint, &pattern, &[1e6, 0.0, 0.0, 1e6].repeat(joint.coupling.points.len()), &mut matrix);
     matrix.hold(&pattern, &problem.stages[0].held);
     let solved = [Symbolic::with_order(&pattern, &order), Symbolic::minimum_degree(&pattern)].map(|plan| {
         let plan = plan.unwrap();

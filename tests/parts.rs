@@ -12,7 +12,7 @@ mod common;
 use common::*;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
-use midplane::solver::{Cut, Linear, Parts, Plan, Symbolic, System, nested_dissection};
+use midplane::solver::{Cut, FactorPlan, Linear, Parts, Symbolic, System, nested_dissection};
 
 /// Layers 2 × 0.5 on each other, `edges` along each, with a joint between neighbours or with none.
 fn layers(edges: &[usize], shape: Shape, jointed: bool, fix: &str) -> Problem {
@@ -58,8 +58,8 @@ fn solve(problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     let f = stage.force(model, 1.0).unwrap();
     let order = nested_dissection(&pattern, &model.coordinates());
     let cut = Cut::new(&pattern, &order);
-    let in_parts = Plan::InParts(Parts::new(&pattern, cut).unwrap());
-    let joined = Plan::Joined(Symbolic::with_order(&pattern, &order).unwrap());
+    let in_parts = FactorPlan::InParts(Parts::new(&pattern, cut).unwrap());
+    let joined = FactorPlan::Joined(Symbolic::with_order(&pattern, &order).unwrap());
     let [a, b] = [in_parts, joined].map(|plan| {
         let solution = Linear::new(system, &plan, &stage.held).unwrap().solve(&f, &vec![0.0; f.len()]);
         assert!(solution.backward_error < 1e-14, "{}: {:e}", plan.method().name(), solution.backward_error);
@@ -101,7 +101,7 @@ fn the_answer_does_not_depend_on_the_number_of_threads() {
 fn a_large_model_is_factored_in_parts_and_a_small_one_joined() {
     for (edges, strategy) in [([80, 100], "joined"), ([240, 250], "in parts")] {
         let problem = layers(&edges, Shape::Quadrilateral4, true, "l0.bottom");
-        let plan = Plan::analyse(&problem.model.pattern(), &problem.model.coordinates()).unwrap();
+        let plan = FactorPlan::analyse(&problem.model.pattern(), &problem.model.coordinates()).unwrap();
         assert_eq!(plan.method().name(), strategy, "{} dofs", problem.model.dofs());
     }
 }

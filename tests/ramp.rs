@@ -37,7 +37,7 @@ fn problem(increments: usize, level: f64, fields: &str) -> Problem {
 }
 
 /// Columns of the history, work and stored energy.
-fn columns(problem: &Problem, state: &midplane::history::State) -> Vec<f64> {
+fn columns(problem: &Problem, state: &midplane::history::ModelState) -> Vec<f64> {
     [state.probes(problem), vec![state.work, state.stored]].concat()
 }
 

@@ -4,7 +4,7 @@
 mod common;
 
 use common::*;
-use midplane::history::{Checkpoint, Clock, Equations, History, Means, State};
+use midplane::history::{Checkpoint, Clock, Equations, History, Means, ModelState};
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
@@ -37,7 +37,7 @@ fn blocks() -> Vec<Mesh> {
 }
 
 /// Everything that an increment shows.
-fn shown(problem: &Problem, state: &State, iterations: usize) -> Vec<f64> {
+fn shown(problem: &Problem, state: &ModelState, iterations: usize) -> Vec<f64> {
     let energies = [state.stored, state.dissipated, state.work, state.released, state.residual];
     let mut all = [vec![iterations as f64], energies.to_vec(), state.probes(problem)].concat();
     all.extend(&state.snapshot.u);

@@ -23,7 +23,7 @@ use std::f64::consts::PI;
 
 use common::*;
 use midplane::error::Code;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 use rings::{Polar, Round, inclusion, rings};
@@ -51,7 +51,7 @@ fn displaced(group: &str, u: &Polar) -> String {
 }
 
 /// Relative errors in L2: displacement of both bodies, traction at the law points.
-fn errors(problem: &Problem, state: &State, exact: &Round) -> [f64; 2] {
+fn errors(problem: &Problem, state: &ModelState, exact: &Round) -> [f64; 2] {
     let mut displacement = [0.0; 2];
     for (b, body) in problem.model.bodies.iter().enumerate() {
         let u = &state.snapshot.u[problem.model.dofs_of(b)];

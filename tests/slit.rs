@@ -10,7 +10,7 @@
 mod common;
 
 use common::*;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::mesh::{Edge, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
@@ -19,7 +19,7 @@ const P: f64 = 10.0;
 const E: f64 = 1e4;
 
 /// A body 1 × 1 with a slit, `inside` edges on the lower and the upper lip, joined with stiffness `k`.
-fn solved(inside: [usize; 2], k: f64, supports: &str, loads: &str) -> (Problem, State) {
+fn solved(inside: [usize; 2], k: f64, supports: &str, loads: &str) -> (Problem, ModelState) {
     let half = |n: usize, from: f64, to: f64| {
         let xs =
             [even(0.0, 0.3, 6), even(0.3, 0.7, n)[1..].to_vec(), even(0.7, 1.0, 6)[1..].to_vec()].concat();

@@ -4,7 +4,7 @@
 mod common;
 
 use common::*;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::law;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
@@ -151,7 +151,7 @@ fn increments_that_were_cut_leave_no_trace() {
 }
 
 /// What the law points of the joint remember.
-fn of_points<T>(state: &State, what: impl Fn(&law::State) -> Vec<T>) -> Vec<T> {
+fn of_points<T>(state: &ModelState, what: impl Fn(&law::State) -> Vec<T>) -> Vec<T> {
     state.snapshot.states[0].iter().flat_map(what).collect()
 }
 
@@ -242,7 +242,7 @@ fn increments_without_stored_fields_have_the_same_history() {
         assert!(last.states[30].snapshot.u.is_empty() && !all.states[30].snapshot.u.is_empty());
         assert!(last.end.unwrap().energy_balance < 5e-3);
         let largest =
-            |f: &dyn Fn(&midplane::history::State) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
+            |f: &dyn Fn(&midplane::history::ModelState) -> f64| all.states.iter().map(f).fold(0.0, f64::max);
         let (work, force) = (largest(&|s| s.work.abs()), 2.0 * 0.4);
         for (i, (a, b)) in all.states.iter().zip(&last.states).enumerate() {
             close(b.work, a.work, 1e-10, work, &format!("{law:.20}: work {i}"));

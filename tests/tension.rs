@@ -89,8 +89,8 @@ fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
 
 /// Residuals down to the first below the tolerance of 1e-12, of the increment with the most iterations; what follows
 /// corrects the rounding of the condensation.
-fn hardest(states: &[midplane::history::State]) -> &[f64] {
-    let found = |state: &midplane::history::State| {
+fn hardest(states: &[midplane::history::ModelState]) -> &[f64] {
+    let found = |state: &midplane::history::ModelState| {
         let below = state.residuals.iter().position(|&r| r <= 1e-12);
         below.map_or(state.residuals.len(), |k| k + 1)
     };

@@ -8,7 +8,7 @@ mod strip;
 mod table;
 
 use common::*;
-use midplane::history::State;
+use midplane::history::ModelState;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 use strip::{Manufactured, Strip};
@@ -46,12 +46,17 @@ fn layers(
     bind(&text, vec![lower, upper]).unwrap()
 }
 
-fn only(problem: &Problem) -> State {
+fn only(problem: &Problem) -> ModelState {
     solve(problem).0.remove(0)
 }
 
 /// RMS along the joint of the error of one traction component, over the RMS of the exact one.
-fn traction_error(problem: &Problem, state: &State, component: usize, exact: impl Fn(f64) -> f64) -> f64 {
+fn traction_error(
+    problem: &Problem,
+    state: &ModelState,
+    component: usize,
+    exact: impl Fn(f64) -> f64,
+) -> f64 {
     let (mut error, mut norm) = (0.0, 0.0);
     for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
         let x = exact(point.position[0]);
@@ -143,7 +148,7 @@ fn case_2_bending_patch() {
 }
 
 /// L2 norm of the displacement error and energy norm of the strain error, squared.
-fn errors(problem: &Problem, state: &State, exact: &Manufactured) -> [f64; 2] {
+fn errors(problem: &Problem, state: &ModelState, exact: &Manufactured) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for (layer, body) in problem.model.bodies.iter().enumerate() {
         for c in 0..body.mesh.cells.len() {

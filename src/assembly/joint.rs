@@ -1,6 +1,5 @@
 //! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
 
-use super::{Pattern, Symmetric, Tangent};
 use crate::coupling::{Coupling, LawPoint};
 use crate::sparse::Csr;
 
@@ -18,7 +17,7 @@ pub struct Joint {
     /// Bodies of side A and side B.
     pub bodies: [usize; 2],
     /// G on global dofs, in the axes of `turned`.
-    jump: Csr,
+    pub(super) jump: Csr,
     /// The common n and t of a straight joint, in which its jump coefficients are then given; else they are in x, y.
     turned: Option<[[f64; 2]; 2]>,
     thickness: f64,
@@ -121,7 +120,7 @@ impl Joint {
 
     /// Gᵀ T G, entry by entry (row, column, value) with repetitions.
     pub fn visit_stiffness(&self, tangent: &Csr, mut entry: impl FnMut(usize, usize, f64)) {
-        let product = product(tangent, &self.jump);
+        let product = tangent.product(&self.jump);
         for i in 0..self.jump.rows() {
             let (left, left_values) = self.jump.row(i);
             let (right, right_values) = product.row(i);
@@ -137,44 +136,6 @@ impl Joint {
     pub fn row(&self, i: usize) -> (&[usize], &[f64]) {
         self.jump.row(i)
     }
-
-    /// Sets of nodes that the joint's stiffness connects with each other.
-    pub fn cliques(&self) -> Vec<Vec<usize>> {
-        let c = self.coupling.components;
-        let product = self.multiplied(&vec![1.0; c * c * self.coupling.points.len()]);
-        let nodes_of = |i: usize| {
-            let mut nodes: Vec<usize> =
-                (c * i..c * (i + 1)).flat_map(|row| product.row(row).0).map(|dof| dof / c).collect();
-            nodes.sort_unstable();
-            nodes.dedup();
-            nodes
-        };
-        (0..self.coupling.coefficients()).map(nodes_of).collect()
-    }
-
-    /// Adds the stiffness for symmetric law stiffnesses D, components² values per law point.
-    pub fn add_stiffness(&self, pattern: &Pattern, stiffness: &[f64], k: &mut Symmetric) {
-        let c = self.coupling.components;
-        let product = self.multiplied(stiffness);
-        for row in 0..self.jump.rows() {
-            let (left, left_values) = self.jump.row(row);
-            let (right, right_values) = product.row(row);
-            for (&j, right) in right.iter().zip(right_values) {
-                let from = left.partition_point(|&i| i < j);
-                for (&i, left) in left[from..].iter().zip(&left_values[from..]) {
-                    let at = pattern.block(i / c, j / c);
-                    k.values[at[j % c] + i % c] += left * right;
-                }
-            }
-        }
-    }
-
-    /// T G.
-    fn multiplied(&self, stiffness: &[f64]) -> Csr {
-        let mut tangent = Tangent::new(self);
-        tangent.fill(self, stiffness);
-        product(&tangent.matrix, &self.jump)
-    }
 }
 
 /// n and t of the law points if they have them in common: stiff springs along one of them do not then reach into the other.
@@ -185,30 +146,4 @@ fn common_axes(coupling: &Coupling) -> Option<[[f64; 2]; 2]> {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= STRAIGHT
     };
     coupling.points.iter().all(same).then_some(first)
-}
-
-/// A B, row by row.
-fn product(a: &Csr, b: &Csr) -> Csr {
-    let mut result = Csr { offsets: vec![0], width: b.width, ..Csr::default() };
-    let mut row: Vec<(usize, f64)> = Vec::new();
-    for i in 0..a.rows() {
-        row.clear();
-        let (columns, values) = a.row(i);
-        for (&k, &value) in columns.iter().zip(values) {
-            let (b_columns, b_values) = b.row(k);
-            row.extend(b_columns.iter().zip(b_values).map(|(&j, b)| (j, value * b)));
-        }
-        row.sort_by_key(|&(j, _)| j);
-        for &(j, value) in &row {
-            if result.columns.len() > result.offsets[i] && result.columns[result.columns.len() - 1] == j {
-                let end = result.values.len() - 1;
-                result.values[end] += value;
-            } else {
-                result.columns.push(j);
-                result.values.push(value);
-            }
-        }
-        result.offsets.push(result.columns.len());
-    }
-    result
 }

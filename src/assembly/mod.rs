@@ -7,12 +7,14 @@
 mod joint;
 mod matrix;
 mod pattern;
+mod stiffness;
 mod tangent;
 
 pub use joint::Joint;
 pub use matrix::Symmetric;
 pub use pattern::Pattern;
-pub use tangent::Tangent;
+pub use stiffness::add_stiffness;
+pub use tangent::InterfaceTangent;
 
 use rayon::prelude::*;
 
@@ -94,7 +96,7 @@ impl Model {
 
     /// The pattern that continuum and joints fill together.
     pub fn pattern(&self) -> Pattern {
-        let joints: Vec<Vec<usize>> = self.joints.iter().flat_map(Joint::cliques).collect();
+        let joints: Vec<Vec<usize>> = self.joints.iter().flat_map(stiffness::cliques).collect();
         let cliques = joints.iter().map(|nodes| (0, nodes.as_slice()));
         Pattern::new(self.components, self.nodes(), || self.cells().chain(cliques.clone()))
     }

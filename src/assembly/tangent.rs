@@ -5,16 +5,16 @@ use crate::sparse::Csr;
 
 /// T with its places.
 #[derive(Debug, Clone)]
-pub struct Tangent {
+pub struct InterfaceTangent {
     /// The matrix; its pattern is symmetric.
     pub matrix: Csr,
     /// For every law point and every pair of its grid nodes the place of each component pair, none where N vanishes.
     places: Vec<Option<u32>>,
 }
 
-impl Tangent {
+impl InterfaceTangent {
     /// The pattern of a joint, values zero.
-    pub fn new(joint: &Joint) -> Tangent {
+    pub fn new(joint: &Joint) -> InterfaceTangent {
         let c = joint.coupling.components;
         let mut entries = Vec::new();
         let visit = |point: &crate::coupling::LawPoint, entry: &mut dyn FnMut(usize, usize, bool)| {
@@ -44,7 +44,7 @@ impl Tangent {
                 places.push(place.map(|k| (matrix.offsets[row] + k) as u32));
             });
         }
-        Tangent { matrix, places }
+        InterfaceTangent { matrix, places }
     }
 
     /// T for law stiffnesses D, components² values per law point, row by row.

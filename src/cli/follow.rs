@@ -8,12 +8,12 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::error::Result;
-use crate::study::{self, Done, Means, Outcome, Plan, Progress};
+use crate::study::{self, PointOutcome, Progress, StudyDone, StudyMeans, StudyPlan};
 
 /// Runs a study, or a point of it, and shows it.
 pub(super) fn study(
-    plan: &Plan,
-    means: &Means,
+    plan: &StudyPlan,
+    means: &StudyMeans,
     point: Option<usize>,
     once: Option<&Path>,
     quiet: bool,
@@ -70,7 +70,7 @@ pub(super) fn study(
 }
 
 /// A point in a line.
-fn described(plan: &Plan, outcome: &Outcome) -> String {
+fn described(plan: &StudyPlan, outcome: &PointOutcome) -> String {
     let [_, seconds, _] = outcome.times();
     let measures = plan.study.measures.keys();
     let values: Vec<String> = measures.map(|name| format!("{name} {:.6e}", outcome.value(name))).collect();
@@ -79,7 +79,7 @@ fn described(plan: &Plan, outcome: &Outcome) -> String {
     format!("point {:<4} {seconds:>8.3} s  {end}", outcome.point)
 }
 
-fn ended(means: &Means, done: &Done) -> Vec<String> {
+fn ended(means: &StudyMeans, done: &StudyDone) -> Vec<String> {
     let mut lines: Vec<String> = done
         .limits
         .iter()

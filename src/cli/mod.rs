@@ -15,7 +15,7 @@ use clap::{CommandFactory, Parser};
 use arguments::{Arguments, Command, Of};
 
 use crate::error::{Error, Result};
-use crate::law::Stepping;
+use crate::law::Integration;
 use crate::law::path;
 use crate::output;
 use crate::run;
@@ -63,8 +63,8 @@ fn act(arguments: Arguments) -> Result<()> {
         }
         Command::Law { scene, interface, path, substeps, tolerance, settings } => {
             let stepping = match (substeps, tolerance) {
-                (Some(n), _) => Some(Stepping::BackwardEuler(n.get())),
-                (None, tolerance) => tolerance.map(Stepping::Tolerance),
+                (Some(n), _) => Some(Integration::BackwardEuler(n.get())),
+                (None, tolerance) => tolerance.map(Integration::Tolerance),
             };
             let (rows, ended) = run::point::drive(&scene, &settings, &interface, &path, stepping)?;
             let mut csv = Vec::new();
@@ -73,7 +73,7 @@ fn act(arguments: Arguments) -> Result<()> {
             ended.map_or(Ok(()), Err)
         }
         Command::Study { file, out, jobs, threads, point, count, once, gmsh, gmsh_limit, quiet } => {
-            let plan = study::Plan::read(&file, point)?;
+            let plan = study::StudyPlan::read(&file, point)?;
             if count {
                 return print(&format!("{}\n", plan.len()));
             }
@@ -82,7 +82,7 @@ fn act(arguments: Arguments) -> Result<()> {
             let options = run::Options { gmsh, gmsh_limit: limit, ..run::Options::of(&plan.scene) };
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
-            let means = study::Means { out, file, options, jobs: jobs.get(), threads };
+            let means = study::StudyMeans { out, file, options, jobs: jobs.get(), threads };
             follow::study(&plan, &means, point, once.as_deref(), quiet)
         }
         Command::Schema { of } => {

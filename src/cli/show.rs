@@ -8,8 +8,8 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use crate::assembly::Joint;
 use crate::error::Warning;
 use crate::history::{Operations, StageNow, Totals, memory::gigabytes};
-use crate::output::Row;
-use crate::run::{Done, Event};
+use crate::output::HistoryRow;
+use crate::run::{Event, RunDone};
 use crate::solver::Method;
 
 /// Prints events.
@@ -119,7 +119,7 @@ impl Show {
         }
     }
 
-    pub(super) fn done(&self, done: &Done) {
+    pub(super) fn done(&self, done: &RunDone) {
         self.finish();
         let stages: Vec<String> = done
             .clock
@@ -158,7 +158,7 @@ fn marks(now: &Totals, before: Option<&Totals>) -> String {
 }
 
 /// A row of the table.
-fn increment(row: &Row, number: usize, of: usize, marks: &str) -> String {
+fn increment(row: &HistoryRow, number: usize, of: usize, marks: &str) -> String {
     format!(
         "{:<20} {:>9} {:>8.4} {:>6} {:>10.1e} {:>10.1e}  {marks}",
         row.step,

@@ -79,7 +79,7 @@ pub fn element_stiffness(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::continuum::Plane;
+    use crate::continuum::PlaneState;
 
     const SHAPES: [Shape; 5] = [
         Shape::Triangle3,
@@ -100,7 +100,7 @@ mod tests {
 
     #[test]
     fn a_linear_displacement_gives_the_exact_energy_and_a_rigid_motion_none() {
-        let elasticity = Elasticity::new(1e4, 0.3, Plane::Strain);
+        let elasticity = Elasticity::new(1e4, 0.3, PlaneState::Strain);
         for shape in SHAPES {
             let x = affine(shape);
             let k = element_stiffness(shape, &x, &elasticity, 0.7);

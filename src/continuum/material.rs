@@ -2,7 +2,7 @@
 
 /// The out-of-plane assumption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plane {
+pub enum PlaneState {
     /// ε_zz = 0.
     Strain,
     /// σ_zz = 0.
@@ -26,15 +26,15 @@ pub struct Elasticity {
 
 impl Elasticity {
     /// From Young's modulus [stress] and Poisson's ratio.
-    pub fn new(young: f64, poisson: f64, plane: Plane) -> Elasticity {
+    pub fn new(young: f64, poisson: f64, plane: PlaneState) -> Elasticity {
         let (e, nu) = (young, poisson);
         let c33 = e / (2.0 * (1.0 + nu));
         match plane {
-            Plane::Strain => {
+            PlaneState::Strain => {
                 let c = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
                 Elasticity { c11: c * (1.0 - nu), c12: c * nu, c33, out_of_plane: nu, young }
             }
-            Plane::Stress => {
+            PlaneState::Stress => {
                 let c = e / ((1.0 - nu) * (1.0 + nu));
                 Elasticity { c11: c, c12: c * nu, c33, out_of_plane: 0.0, young }
             }

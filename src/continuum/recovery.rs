@@ -146,7 +146,7 @@ pub fn principal(stress: [f64; 4]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::continuum::Plane;
+    use crate::continuum::PlaneState;
     use crate::mesh::Cells;
 
     /// One cell with an affine image of the reference nodes and a displacement field at them.
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn a_stress_that_the_element_can_carry_is_recovered_at_the_nodes() {
         // u = (a x + b xy, c y − b/2 x²): ε_xx = a + b y, ε_yy = c, γ_xy = 0; b = 0 for linear shapes
-        let elasticity = Elasticity::new(1e4, 0.2, Plane::Stress);
+        let elasticity = Elasticity::new(1e4, 0.2, PlaneState::Stress);
         for shape in [
             Shape::Triangle3,
             Shape::Quadrilateral4,

@@ -36,14 +36,14 @@ pub(super) struct Angles {
     /// How far every edge may lie off the curve that it approximates [length].
     pub slack: Vec<f64>,
     /// Lines without kinks.
-    pub lines: Vec<Line>,
+    pub lines: Vec<SmoothLine>,
     /// The largest turn at a kink [rad].
     pub sharpest: f64,
 }
 
 /// Edges that follow each other without a kink.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(super) struct SmoothLine {
     /// Numbers of the edges, in order.
     pub edges: Vec<usize>,
     /// True if the last edge ends where the first one starts.
@@ -65,7 +65,7 @@ impl Angles {
                 angles.sharpest = angles.sharpest.max(turns[i].abs());
             }
             if run.closed && kinks.is_empty() {
-                angles.lines.push(Line { edges, closed: true });
+                angles.lines.push(SmoothLine { edges, closed: true });
                 continue;
             }
             // a closed run starts at its first kink
@@ -76,7 +76,7 @@ impl Angles {
             starts.push(order.len());
             let mut start = 0;
             for end in starts {
-                angles.lines.push(Line { edges: order[start..end].to_vec(), closed: false });
+                angles.lines.push(SmoothLine { edges: order[start..end].to_vec(), closed: false });
                 start = end;
             }
         }
@@ -175,7 +175,7 @@ fn is_kink(chain: &Chain, edges: &[usize], turns: &[f64], i: usize, closed: bool
 }
 
 /// Replaces the own angles of the edges of a line by those of its nodes, continuous along the line.
-fn smooth(chain: &Chain, own: &[[f64; 3]], line: &Line, angles: &mut [[f64; 3]]) {
+fn smooth(chain: &Chain, own: &[[f64; 3]], line: &SmoothLine, angles: &mut [[f64; 3]]) {
     let n = line.edges.len();
     let length: Vec<f64> = line.edges.iter().map(|&e| chain.chord(e)).collect();
     // own angles without jumps by full turns

@@ -4,7 +4,7 @@
 //!   ends   0 ──── 1 ─────── 2 ── 3        with mid-nodes on quadratic edges
 //! ```
 
-use super::link::{self, Body, Corner, Link, Side};
+use super::link::{self, Corner, Link, Orientation, Side};
 use super::vector::*;
 use crate::error::Result;
 use crate::shape::{lagrange2, lagrange3};
@@ -37,7 +37,12 @@ pub struct Run {
 
 impl Chain {
     /// Orders the edges of a side, coordinates from `origin`.
-    pub(super) fn order(interface: &str, curves: &[Side], body: Body, origin: [f64; 2]) -> Result<Chain> {
+    pub(super) fn order(
+        interface: &str,
+        curves: &[Side],
+        body: Orientation,
+        origin: [f64; 2],
+    ) -> Result<Chain> {
         let links = link::sorted(interface, curves, body, origin)?;
         // open runs from their first edges, then what is left: closed ones
         let next: Vec<usize> = (0..links.len()).map(|i| link::next(&links, i)).collect();
@@ -174,7 +179,7 @@ mod tests {
 
     const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]];
 
-    fn order(points: &[[f64; 2]], edges: &[Edge], body: Body) -> Result<Chain> {
+    fn order(points: &[[f64; 2]], edges: &[Edge], body: Orientation) -> Result<Chain> {
         let side = Side { name: "lower.top", points, edges, corners: &[], first: 0 };
         Chain::order("joint", &[side], body, [0.0; 2])
     }
@@ -186,12 +191,12 @@ mod tests {
     #[test]
     fn edges_in_any_order_become_runs() {
         let edges = [edge(1, 2), edge(2, 3), edge(0, 1)];
-        assert_eq!(order(&POINTS, &edges, Body::Left).unwrap().nodes, [0, 1, 2, 3]);
-        assert_eq!(order(&POINTS, &edges, Body::Right).unwrap().nodes, [3, 2, 1, 0]);
-        let two = order(&POINTS, &[edge(2, 3), edge(0, 1)], Body::Left).unwrap();
+        assert_eq!(order(&POINTS, &edges, Orientation::Left).unwrap().nodes, [0, 1, 2, 3]);
+        assert_eq!(order(&POINTS, &edges, Orientation::Right).unwrap().nodes, [3, 2, 1, 0]);
+        let two = order(&POINTS, &[edge(2, 3), edge(0, 1)], Orientation::Left).unwrap();
         assert_eq!((two.nodes.as_slice(), two.runs.len()), ([0, 1, 2, 3].as_slice(), 2));
         let loop_and_line = [edge(1, 2), edge(2, 1), edge(0, 3)];
-        let chain = order(&POINTS, &loop_and_line, Body::Left).unwrap();
+        let chain = order(&POINTS, &loop_and_line, Orientation::Left).unwrap();
         assert_eq!((chain.runs[0].closed, chain.runs[1].closed), (false, true));
         assert_eq!(chain.ends, [[0, 1], [2, 3], [3, 2]]);
     }
@@ -201,7 +206,7 @@ mod tests {
         let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.5, 0.0], [1.5, 0.0]];
         let quadratic = |nodes: [usize; 3]| Edge { nodes, cell: 0, boundary: true };
         let edges = [quadratic([1, 2, 4]), quadratic([0, 1, 3])];
-        for body in [Body::Left, Body::Right] {
+        for body in [Orientation::Left, Orientation::Right] {
             let chain = order(&points, &edges, body).unwrap();
             for e in 0..2 {
                 let x: Vec<f64> = chain.edge(e).map(|i| chain.points[i][0]).collect();
@@ -212,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_branch_is_refused_with_its_place() {
-        let message = order(&POINTS, &[edge(0, 1), edge(0, 2)], Body::Left).unwrap_err().to_string();
+        let message = order(&POINTS, &[edge(0, 1), edge(0, 2)], Orientation::Left).unwrap_err().to_string();
         assert!(message.contains("branches at (0, 0)"), "{message}");
     }
 }

@@ -12,7 +12,7 @@ const AFTER: f64 = 1e-9;
 
 /// A node of A, of B or of both, at its arc length.
 #[derive(Debug, Clone, Copy)]
-struct Cut {
+struct SideNode {
     s: f64,
     of: [bool; 2],
 }
@@ -23,24 +23,26 @@ pub(super) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
     let [start, end] = c.span(piece);
     let length = end - start;
     // the ends of the common length count as nodes of both sides
-    let mut cuts = vec![Cut { s: start, of: [true; 2] }];
-    cuts.extend(segments.iter().map(|g| Cut { s: g.end, of: [g.xi_a[1] == 1.0, g.xi_b[1] == 1.0] }));
+    let mut cuts = vec![SideNode { s: start, of: [true; 2] }];
+    cuts.extend(segments.iter().map(|g| SideNode { s: g.end, of: [g.xi_a[1] == 1.0, g.xi_b[1] == 1.0] }));
     let last = cuts.len() - 1;
     if piece.closed {
         replace_partner(&mut cuts, length);
     }
     cuts[last].of = [true; 2];
     if starts_at_the_far_end(c, piece, &cuts, length) {
-        let mirrored: Vec<Cut> = cuts.iter().rev().map(|cut| Cut { s: end - cut.s, of: cut.of }).collect();
+        let mirrored: Vec<SideNode> =
+            cuts.iter().rev().map(|cut| SideNode { s: end - cut.s, of: cut.of }).collect();
         walk(&mirrored, length).into_iter().rev().map(|i| cuts[last - i].s).collect()
     } else {
-        let from_start: Vec<Cut> = cuts.iter().map(|cut| Cut { s: cut.s - start, of: cut.of }).collect();
+        let from_start: Vec<SideNode> =
+            cuts.iter().map(|cut| SideNode { s: cut.s - start, of: cut.of }).collect();
         walk(&from_start, length).into_iter().map(|i| cuts[i].s).collect()
     }
 }
 
 /// A loop starts at a node of one side, which stands for the nearest node of the other side as well.
-fn replace_partner(cuts: &mut [Cut], length: f64) {
+fn replace_partner(cuts: &mut [SideNode], length: f64) {
     let (start, last) = (cuts[0].s, cuts.len() - 1);
     for side in 0..2 {
         let node = |i: &usize| cuts[*i].of[side];
@@ -54,7 +56,7 @@ fn replace_partner(cuts: &mut [Cut], length: f64) {
 }
 
 /// Numbers of the cuts that become nodes of the grid; s counts from the first cut.
-fn walk(cuts: &[Cut], length: f64) -> Vec<usize> {
+fn walk(cuts: &[SideNode], length: f64) -> Vec<usize> {
     let last = cuts.len() - 1;
     // the next node of a side behind a place; searched from where the last search ended
     let after = |side: usize, from: usize, s: f64| {
@@ -84,7 +86,7 @@ fn walk(cuts: &[Cut], length: f64) -> Vec<usize> {
 
 /// True if the walk starts at the end of the piece: compares the edges from both ends inwards, the larger of A and B
 /// first.
-fn starts_at_the_far_end(c: &Midplane, piece: &Piece, cuts: &[Cut], length: f64) -> bool {
+fn starts_at_the_far_end(c: &Midplane, piece: &Piece, cuts: &[SideNode], length: f64) -> bool {
     let places = |side: usize| -> Vec<f64> {
         // cuts that are one node to the walk are one here
         let mut s: Vec<f64> = cuts.iter().filter(|cut| cut.of[side]).map(|cut| cut.s).collect();

@@ -18,7 +18,7 @@
 //! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
-use super::midplane::{Midplane, Spot};
+use super::midplane::{Midplane, MidplanePoint};
 use super::segment::Segment;
 use super::{Chain, vector::*};
 
@@ -39,7 +39,7 @@ pub(super) struct Entry {
 }
 
 /// Calls `add` for every entry of the jump at a place of a segment.
-pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &Spot, mut add: impl FnMut(Entry)) {
+pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &MidplanePoint, mut add: impl FnMut(Entry)) {
     let sides = [
         OnEdge::new(&c.a, segment.edge_a, spot.xi_a, 0),
         OnEdge::new(&c.b, segment.edge_b, spot.xi_b, c.a.nodes.len()),
@@ -74,19 +74,19 @@ pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &Spot, mut add: imp
 }
 
 /// Way from either edge to the curve that it is a chord of.
-fn off_curves(c: &Midplane, segment: &Segment, spot: &Spot) -> [[f64; 2]; 2] {
+fn off_curves(c: &Midplane, segment: &Segment, spot: &MidplanePoint) -> [[f64; 2]; 2] {
     let [a, b] = &c.angles;
     [a.to_curve(&c.a, segment.edge_a, spot.xi_a), b.to_curve(&c.b, segment.edge_b, spot.xi_b)]
 }
 
 /// Way from the curve of A to that of B.
-fn apart(c: &Midplane, segment: &Segment, spot: &Spot, off: [[f64; 2]; 2]) -> [f64; 2] {
+fn apart(c: &Midplane, segment: &Segment, spot: &MidplanePoint, off: [[f64; 2]; 2]) -> [f64; 2] {
     let edges = minus(c.b.point(segment.edge_b, spot.xi_b), c.a.point(segment.edge_a, spot.xi_a));
     plus(edges, minus(off[1], off[0]))
 }
 
 /// The drawn gap at a place of a segment: the way from one curve to the other, without what chords differ by.
-pub(super) fn drawn(c: &Midplane, segment: &Segment, spot: &Spot) -> [f64; 2] {
+pub(super) fn drawn(c: &Midplane, segment: &Segment, spot: &MidplanePoint) -> [f64; 2] {
     apart(c, segment, spot, off_curves(c, segment, spot))
 }
 

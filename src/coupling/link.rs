@@ -46,7 +46,7 @@ pub(super) struct Link {
 
 /// Which way a chain runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Body {
+pub(super) enum Orientation {
     /// As the mesh gives it: the body on the left of the chain.
     Left,
     /// The other way: the body on the right.
@@ -54,7 +54,12 @@ pub(super) enum Body {
 }
 
 /// The edges of a side by start node; no two start or end at one.
-pub(super) fn sorted(interface: &str, curves: &[Side], body: Body, origin: [f64; 2]) -> Result<Vec<Link>> {
+pub(super) fn sorted(
+    interface: &str,
+    curves: &[Side],
+    body: Orientation,
+    origin: [f64; 2],
+) -> Result<Vec<Link>> {
     let names = names(curves);
     let refuse =
         |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
@@ -100,10 +105,10 @@ pub(super) fn names(curves: &[Side]) -> String {
 }
 
 impl Link {
-    fn new(curve: &Side, edge: &Edge, body: Body, origin: [f64; 2]) -> Link {
+    fn new(curve: &Side, edge: &Edge, body: Orientation, origin: [f64; 2]) -> Link {
         let [mut start, mut end, mid] = edge.nodes;
         let mid = (mid != end).then_some(mid);
-        if body == Body::Right {
+        if body == Orientation::Right {
             (start, end) = (end, start);
         }
         let corner = match curve.corners {

@@ -38,7 +38,7 @@ pub struct Midplane {
 
 /// A place on C.
 #[derive(Debug, Clone, Copy)]
-pub struct Spot {
+pub struct MidplanePoint {
     /// ξ on A's edge.
     pub xi_a: f64,
     /// ξ on B's edge.
@@ -55,14 +55,14 @@ pub struct Spot {
 
 impl Midplane {
     /// The place η of a segment, −1 at its start and 1 at its end.
-    pub fn spot(&self, segment: usize, eta: f64) -> Spot {
+    pub fn spot(&self, segment: usize, eta: f64) -> MidplanePoint {
         let g = &self.segments[segment];
         let (xi_a, xi_b, along) = self.along(g, eta);
         let (x_a, x_b) = (self.a.point(g.edge_a, xi_a), self.b.point(g.edge_b, xi_b));
         let [a, b] = &self.angles;
         let tangent = unit(plus(a.tangent(g.edge_a, xi_a), b.tangent(g.edge_b, xi_b)));
         let normal = [-tangent[1], tangent[0]];
-        Spot {
+        MidplanePoint {
             xi_a,
             xi_b,
             position: [0, 1].map(|d| self.origin[d] + 0.5 * (x_a[d] + x_b[d])),

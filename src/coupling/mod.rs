@@ -34,17 +34,17 @@ mod view;
 
 pub use chain::{Chain, Run};
 pub use link::Side;
-pub use midplane::{Midplane, Spot};
+pub use midplane::{Midplane, MidplanePoint};
 pub use parts::join;
 pub use segment::{Piece, Segment};
-pub use view::Share;
+pub use view::SegmentView;
 
 use crate::error::Result;
 use crate::sparse::Csr;
 
 /// How the sides are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum JumpScheme {
     /// Jump projected on the mid-plane's own grid, quadratic where both sides are.
     Projected,
     /// The same on a linear grid, whatever the sides.
@@ -75,7 +75,7 @@ pub enum Gap {
 #[derive(Debug, Clone, Copy)]
 pub struct Scheme {
     /// How the sides are joined.
-    pub kind: Kind,
+    pub kind: JumpScheme,
     /// Where the law acts within its interval.
     pub points: Points,
     /// Whether the sides may lie apart.
@@ -127,9 +127,9 @@ impl Coupling {
     pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
         let midplane = join(name, a, b, scheme.gap)?;
         Ok(match scheme.kind {
-            Kind::Projected => projected::build(midplane, scheme.points, true),
-            Kind::ProjectedLinear => projected::build(midplane, scheme.points, false),
-            Kind::Pointwise => pointwise::build(midplane, scheme.points),
+            JumpScheme::Projected => projected::build(midplane, scheme.points, true),
+            JumpScheme::ProjectedLinear => projected::build(midplane, scheme.points, false),
+            JumpScheme::Pointwise => pointwise::build(midplane, scheme.points),
         })
     }
 

@@ -9,8 +9,8 @@
 //! The condition is the same seen from A and from B, and it orders all pairs along C, so that nodes of either side come
 //! in one order. Two lines are walked together from where one of them starts: linear in their edges.
 
-use super::angle::{Angles, Line};
-use super::segment::{Place, Segment};
+use super::angle::{Angles, SmoothLine};
+use super::segment::{LinePoint, Segment};
 use super::{Chain, vector::*};
 
 /// Places are found to within this. Of the distance within which nodes are one, so that rounding is all that is left.
@@ -25,26 +25,32 @@ pub(super) struct Face<'a> {
 
 /// Point and unit tangent of a place.
 #[derive(Debug, Clone, Copy)]
-struct Spot {
+struct TangentPoint {
     x: [f64; 2],
     t: [f64; 2],
 }
 
 impl Face<'_> {
-    fn spot(&self, e: usize, xi: f64) -> Spot {
-        Spot { x: self.chain.point(e, xi), t: self.angles.tangent(e, xi) }
+    fn spot(&self, e: usize, xi: f64) -> TangentPoint {
+        TangentPoint { x: self.chain.point(e, xi), t: self.angles.tangent(e, xi) }
     }
 }
 
 /// How far b lies ahead of the place that faces a [length].
-fn ahead(a: Spot, b: Spot) -> f64 {
+fn ahead(a: TangentPoint, b: TangentPoint) -> f64 {
     dot(minus(b.x, a.x), unit(plus(a.t, b.t)))
 }
 
 /// Starts of the common parts of two lines: pairs of places at which one of the lines starts. `merge` is the distance
 /// within which nodes are one [length].
-pub(super) fn starts(a: Face, line_a: &Line, b: Face, line_b: &Line, merge: f64) -> Vec<[Place; 2]> {
-    let first = Place { i: 0, xi: -1.0 };
+pub(super) fn starts(
+    a: Face,
+    line_a: &SmoothLine,
+    b: Face,
+    line_b: &SmoothLine,
+    merge: f64,
+) -> Vec<[LinePoint; 2]> {
+    let first = LinePoint { i: 0, xi: -1.0 };
     let mut found = Vec::new();
     if !line_a.closed || line_b.closed {
         let spot = a.spot(line_a.edges[0], -1.0);
@@ -60,13 +66,13 @@ pub(super) fn starts(a: Face, line_a: &Line, b: Face, line_b: &Line, merge: f64)
 
 /// The place of a line that faces a spot of the other side, the nearest if there are several. `sign` is 1 if the line
 /// lies on B, −1 if on A.
-fn facing(face: Face, line: &Line, spot: Spot, sign: f64, merge: f64) -> Option<Place> {
+fn facing(face: Face, line: &SmoothLine, spot: TangentPoint, sign: f64, merge: f64) -> Option<LinePoint> {
     let n = line.edges.len();
     let node = |i: usize| {
         if i < n { face.spot(line.edges[i], -1.0) } else { face.spot(line.edges[n - 1], 1.0) }
     };
-    let beyond = |at: Spot| if sign > 0.0 { ahead(spot, at) } else { -ahead(at, spot) };
-    let mut best: Option<(f64, Place)> = None;
+    let beyond = |at: TangentPoint| if sign > 0.0 { ahead(spot, at) } else { -ahead(at, spot) };
+    let mut best: Option<(f64, LinePoint)> = None;
     let mut start = node(0);
     let mut f_start = beyond(start);
     for i in 0..n {
@@ -83,7 +89,7 @@ fn facing(face: Face, line: &Line, spot: Spot, sign: f64, merge: f64) -> Option<
             let x = face.chain.point(e, xi);
             let distance = minus(x, spot.x)[0].hypot(minus(x, spot.x)[1]);
             if best.is_none_or(|(nearest, _)| distance < nearest) {
-                best = Some((distance, Place { i, xi }));
+                best = Some((distance, LinePoint { i, xi }));
             }
         }
         (start, f_start) = (end, f_end);
@@ -94,17 +100,17 @@ fn facing(face: Face, line: &Line, spot: Spot, sign: f64, merge: f64) -> Option<
 /// Walks both lines from a pair of places to the first end, node by node. Arc lengths are left at zero.
 pub(super) fn walk(
     a: Face,
-    line_a: &Line,
+    line_a: &SmoothLine,
     b: Face,
-    line_b: &Line,
-    from: [Place; 2],
+    line_b: &SmoothLine,
+    from: [LinePoint; 2],
     merge: f64,
 ) -> Vec<Segment> {
     let (n_a, n_b) = (line_a.edges.len(), line_b.edges.len());
     let (mut at_a, mut at_b) = (from[0], from[1]);
     let (end_a, end_b) = (stop(line_a, from[0]), stop(line_b, from[1]));
     let mut segments = Vec::with_capacity(end_a + end_b - at_a.i - at_b.i);
-    let edges = |a: Place, b: Place| (line_a.edges[a.i % n_a], line_b.edges[b.i % n_b]);
+    let edges = |a: LinePoint, b: LinePoint| (line_a.edges[a.i % n_a], line_b.edges[b.i % n_b]);
     let (first_a, first_b) = edges(at_a, at_b);
     let (mut node_a, mut node_b) = (a.spot(first_a, 1.0), b.spot(first_b, 1.0));
     while at_a.i < end_a && at_b.i < end_b {
@@ -122,7 +128,7 @@ pub(super) fn walk(
             Segment { start: 0.0, end: 0.0, edge_a, edge_b, xi_a: [at_a.xi, xi_a], xi_b: [at_b.xi, xi_b] };
         segments.push(segment);
         for (at, xi) in [(&mut at_a, xi_a), (&mut at_b, xi_b)] {
-            *at = if xi == 1.0 { Place { i: at.i + 1, xi: -1.0 } } else { Place { xi, ..*at } };
+            *at = if xi == 1.0 { LinePoint { i: at.i + 1, xi: -1.0 } } else { LinePoint { xi, ..*at } };
         }
         let (next_a, next_b) = edges(at_a, at_b);
         if xi_a == 1.0 {
@@ -136,7 +142,7 @@ pub(super) fn walk(
 }
 
 /// Number of the edge behind the last one to walk.
-fn stop(line: &Line, from: Place) -> usize {
+fn stop(line: &SmoothLine, from: LinePoint) -> usize {
     let n = line.edges.len();
     match (line.closed, from.xi > -1.0) {
         (false, _) => n,

@@ -5,9 +5,9 @@
 //! other; a part that comes apart on its way is refused with its gap.
 
 use super::angle::Angles;
-use super::link::Body;
+use super::link::Orientation;
 use super::pair::{Face, starts, walk};
-use super::segment::{FACING, Part, Piece, Place, Segment};
+use super::segment::{CommonStretch, FACING, LinePoint, Piece, Segment};
 use super::vector::*;
 use super::{Chain, Gap, Midplane, Side, refusal, seam};
 use crate::error::Result;
@@ -28,12 +28,12 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
     let sides = [side_a, side_b];
     let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
     let origin = edge.unwrap_or_default();
-    let order = |side: &[Side], body: Body| {
+    let order = |side: &[Side], body: Orientation| {
         let chain = Chain::order(name, side, body, origin)?;
         let angles = Angles::new(&chain);
         Ok((chain, angles))
     };
-    let (a, b) = rayon::join(|| order(side_a, Body::Right), || order(side_b, Body::Left));
+    let (a, b) = rayon::join(|| order(side_a, Orientation::Right), || order(side_b, Orientation::Left));
     let ((a, angles_a), (b, angles_b)): ((Chain, Angles), (Chain, Angles)) = (a?, b?);
     let angles = [angles_a, angles_b];
     let kink = angles[0].sharpest.max(angles[1].sharpest);
@@ -50,7 +50,8 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
         pieces: Vec::new(),
         angles,
     };
-    let (near, far): (Vec<Part>, Vec<Part>) = parts(&mut c, gap).into_iter().partition(|part| part.touches);
+    let (near, far): (Vec<CommonStretch>, Vec<CommonStretch>) =
+        parts(&mut c, gap).into_iter().partition(|part| part.touches);
     if near.is_empty() {
         return Err(match far.iter().max_by(|p, q| p.length.total_cmp(&q.length)) {
             Some(part) => refusal::apart(name, sides, part),
@@ -84,7 +85,7 @@ fn bodies_on_one_side(c: &Midplane) -> bool {
 }
 
 /// All common parts of all lines, whatever their gap.
-fn parts(c: &mut Midplane, gap: Gap) -> Vec<Part> {
+fn parts(c: &mut Midplane, gap: Gap) -> Vec<CommonStretch> {
     let lines = [0, 1].map(|side| c.angles[side].lines.clone());
     let length = |chain: &Chain, edges: &[usize]| edges.iter().map(|&e| chain.chord(e)).sum::<f64>();
     let lengths_b: Vec<f64> = lines[1].iter().map(|line| length(&c.b, &line.edges)).collect();
@@ -118,14 +119,14 @@ fn parts(c: &mut Midplane, gap: Gap) -> Vec<Part> {
 fn measure(
     c: &mut Midplane,
     segments: Vec<Segment>,
-    order: (usize, Place),
+    order: (usize, LinePoint),
     closed: bool,
     gap: Gap,
     shorter: f64,
     merge: f64,
-) -> Part {
+) -> CommonStretch {
     c.segments = segments;
-    let mut part = Part {
+    let mut part = CommonStretch {
         segments: Vec::with_capacity(c.segments.len()),
         order,
         closed,
@@ -162,9 +163,9 @@ fn measure(
 }
 
 /// Puts the parts one after the other, in the order of chain A.
-fn assemble(c: &mut Midplane, mut parts: Vec<Part>) {
+fn assemble(c: &mut Midplane, mut parts: Vec<CommonStretch>) {
     parts.sort_by(|p, q| {
-        let key = |part: &Part| (part.order.0, part.order.1.i);
+        let key = |part: &CommonStretch| (part.order.0, part.order.1.i);
         key(p).cmp(&key(q)).then(p.order.1.xi.total_cmp(&q.order.1.xi))
     });
     c.segments.clear();

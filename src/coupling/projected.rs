@@ -19,7 +19,7 @@ const NEGLIGIBLE: f64 = 1e-17;
 pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -> Coupling {
     let components = 2;
     let quadratic = allow_quadratic && midplane.a.is_quadratic() && midplane.b.is_quadratic();
-    let grid = Grid::new(&midplane, quadratic);
+    let grid = MidplaneGrid::new(&midplane, quadratic);
     let width = components * (midplane.a.nodes.len() + midplane.b.nodes.len());
 
     // B by rows (grid node, component), M in its band; a quadratic side needs three points also on a linear grid
@@ -108,7 +108,7 @@ pub(super) fn build(midplane: Midplane, points: Points, allow_quadratic: bool) -
 }
 
 /// The grid of the mid-plane: linear cells, or quadratic ones with a node in their middle. Nodes are numbered along C.
-struct Grid {
+struct MidplaneGrid {
     cells: Vec<Cell>,
     quadratic: bool,
     nodes: usize,
@@ -126,9 +126,10 @@ struct Cell {
     nodes: [usize; 3],
 }
 
-impl Grid {
-    fn new(midplane: &Midplane, quadratic: bool) -> Grid {
-        let mut grid = Grid { cells: Vec::new(), quadratic, nodes: 0, row: Vec::new(), closed: false };
+impl MidplaneGrid {
+    fn new(midplane: &Midplane, quadratic: bool) -> MidplaneGrid {
+        let mut grid =
+            MidplaneGrid { cells: Vec::new(), quadratic, nodes: 0, row: Vec::new(), closed: false };
         let order = grid.order();
         for (p, piece) in midplane.pieces.iter().enumerate() {
             let ends = grid::nodes(midplane, piece);
@@ -188,7 +189,7 @@ impl Grid {
 }
 
 /// G = M⁻¹ B, column by column and component by component; what decays to nothing is dropped.
-fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Grid) -> Csr {
+fn solve(mass: &Banded, b: &Csr, components: usize, grid: &MidplaneGrid) -> Csr {
     let nodes = grid.nodes;
     let mut node_of = vec![0; nodes];
     grid.row.iter().enumerate().for_each(|(node, &row)| node_of[row] = node);

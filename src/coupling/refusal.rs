@@ -2,7 +2,7 @@
 
 use super::angle::Angles;
 use super::link::names;
-use super::segment::{FACING, Part};
+use super::segment::{CommonStretch, FACING};
 use super::vector::*;
 use super::{Midplane, Side};
 use crate::error::Error;
@@ -18,7 +18,7 @@ fn refuse(name: &str, what: String, cure: &str) -> Error {
 }
 
 /// The sides of a part are too far apart.
-pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &Part) -> Error {
+pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &CommonStretch) -> Error {
     let (_, gap, [x, y]) = part.worst;
     let kind = if gap > 0.0 { "gap" } else { "overlap" };
     let what = format!(
@@ -43,7 +43,7 @@ pub(super) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
 pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> Error {
     // the lines start and end where the sides come closest
     let ends = |chain: &super::Chain, angles: &Angles| -> Vec<[f64; 2]> {
-        let of_line = |line: &super::angle::Line| {
+        let of_line = |line: &super::angle::SmoothLine| {
             let (first, last) = (line.edges[0], line.edges[line.edges.len() - 1]);
             [chain.point(first, -1.0), chain.point(last, 1.0)]
         };

@@ -33,16 +33,16 @@ pub struct Piece {
 
 /// A place on a line: number of the edge in the line, ξ on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct LinePoint {
     pub i: usize,
     pub xi: f64,
 }
 
 /// A common part of two lines.
-pub(super) struct Part {
+pub(super) struct CommonStretch {
     pub segments: Vec<Segment>,
     /// Place in the order along A.
-    pub order: (usize, Place),
+    pub order: (usize, LinePoint),
     pub closed: bool,
     pub length: f64,
     /// Smallest and largest distance along n.

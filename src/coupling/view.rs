@@ -4,7 +4,7 @@ use super::{Chain, Coupling};
 
 /// A segment as others see it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Share {
+pub struct SegmentView {
     /// Arc lengths of its start and end along C [length].
     pub s: [f64; 2],
     /// Its start and end in the plane.
@@ -17,9 +17,9 @@ pub struct Share {
 
 impl Coupling {
     /// The segments in order.
-    pub fn shares(&self) -> Vec<Share> {
+    pub fn shares(&self) -> Vec<SegmentView> {
         let midplane = &self.midplane;
-        let shares = midplane.segments.iter().enumerate().map(|(i, segment)| Share {
+        let shares = midplane.segments.iter().enumerate().map(|(i, segment)| SegmentView {
             s: [segment.start, segment.end],
             places: [-1.0, 1.0].map(|eta| midplane.spot(i, eta).position),
             edges: [segment.edge_a, segment.edge_b],

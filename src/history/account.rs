@@ -6,7 +6,7 @@ use super::increment::Increment;
 use super::totals::NO_BALANCE;
 use super::{Resultant, beyond, resultant};
 use crate::error::{Error, Result};
-use crate::problem::{Stage, is_held};
+use crate::problem::{BoundStep, is_held};
 
 /// Rounding of forces, of those that the displacements would make.
 const ROUNDING: f64 = 1e-11;
@@ -59,7 +59,7 @@ fn imbalance(analysis: &mut Analysis) -> f64 {
 }
 
 /// Notes the subdomains whose interfaces are all open and that the supports leave free.
-fn note_unheld(analysis: &mut Analysis, stage: &Stage) {
+fn note_unheld(analysis: &mut Analysis, stage: &BoundStep) {
     let model = &analysis.problem.model;
     let states = &analysis.state.snapshot.states;
     let open = |k: usize| {

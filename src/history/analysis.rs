@@ -2,8 +2,8 @@
 
 use super::Clock;
 use super::equilibrium::Engine;
-use super::loading::Load;
-use super::state::State;
+use super::loading::StepLoad;
+use super::state::ModelState;
 use super::totals::Totals;
 use crate::problem::Problem;
 
@@ -11,13 +11,13 @@ use crate::problem::Problem;
 pub(super) struct Analysis<'a> {
     pub(super) problem: &'a Problem,
     pub(super) engine: Box<dyn Engine + 'a>,
-    pub(super) state: State,
+    pub(super) state: ModelState,
     pub(super) totals: Totals,
     pub(super) clock: Clock,
 }
 
 /// Recovers what an increment without stored fields has left out of a state.
-pub(super) fn complete(problem: &Problem, engine: &dyn Engine, state: &mut State, load: Load) {
+pub(super) fn complete(problem: &Problem, engine: &dyn Engine, state: &mut ModelState, load: StepLoad) {
     if state.is_complete() {
         return;
     }

@@ -3,7 +3,7 @@
 
 use super::analysis::Analysis;
 use super::energy::dissipation;
-use super::equilibrium::{Failure, Path};
+use super::equilibrium::{Failure, PathSearch};
 use super::judge::{Judged, judge};
 use super::loading::Start;
 use super::outcome::Outcome;
@@ -25,7 +25,11 @@ pub(super) fn arc(
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let (ahead, last) = if first { (0.0, ratio * part) } else { (ratio, at.change) };
-        match analysis.engine.follow(&analysis.state, at.level, &Path { ramp, amount: None, ahead, last }) {
+        match analysis.engine.follow(
+            &analysis.state,
+            at.level,
+            &PathSearch { ramp, amount: None, ahead, last },
+        ) {
             Ok((found, level)) if level < 1.0 => {
                 let spent = dissipation(analysis.problem, &found);
                 // how far this goes, in increments of the scene; what is sound may go from nothing to anything

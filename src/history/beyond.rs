@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::state::State;
+use super::state::ModelState;
 use crate::problem::Problem;
 
 /// A jump, of a point that carries something, by more than an edge that faces it.
@@ -23,7 +23,7 @@ pub struct Beyond {
 }
 
 /// Notes the jumps of an increment that exceed an edge of either side.
-pub(super) fn note(problem: &Problem, state: &State, increment: usize, told: &mut Vec<Beyond>) {
+pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told: &mut Vec<Beyond>) {
     for (k, joint) in problem.model.joints.iter().enumerate() {
         let midplane = &joint.coupling.midplane;
         let jumps = state.snapshot.jumps[k].iter().zip(&state.snapshot.tractions[k]);

@@ -2,7 +2,7 @@
 
 use super::loading::Ledger;
 use crate::law;
-use crate::solver::Solution;
+use crate::solver::NodalSolution;
 
 /// A joint whose jumps are unknowns, after an increment that converged.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ pub(in crate::history) struct PointResponse {
 #[derive(Debug, Clone)]
 pub(in crate::history) struct Converged {
     /// Displacements and reactions, if they were recovered.
-    pub(in crate::history) solution: Option<Solution>,
+    pub(in crate::history) solution: Option<NodalSolution>,
     /// What stands for them otherwise.
     pub(in crate::history) ledger: Option<Ledger>,
     /// Joints whose jumps are unknowns.

@@ -1,7 +1,7 @@
 //! Steps along the path by dissipated energy, and by load factor while nothing dissipates.
 
 use super::analysis::Analysis;
-use super::equilibrium::{Failure, Path};
+use super::equilibrium::{Failure, PathSearch};
 use super::judge::{Judged, judge};
 use super::loading::Start;
 use super::outcome::Outcome;
@@ -47,7 +47,7 @@ pub(super) fn sound(
     let mut amount = FIRST * analysis.state.stored;
     let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
-        let path = Path { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
+        let path = PathSearch { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
         match analysis.engine.follow(&analysis.state, at.level, &path) {
             Ok((found, level)) if far(analysis, at, &found) <= WIDE * TRACTIONS * part => {
                 let judged =
@@ -104,7 +104,7 @@ pub(super) fn along(
     let mut amount = at.amount;
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
-        let path = Path { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
+        let path = PathSearch { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
         match analysis.engine.follow(&analysis.state, at.level, &path) {
             Ok((found, level)) if level < 1.0 => {
                 // how far this goes, in increments of the scene

@@ -1,13 +1,13 @@
 //! Energies of an increment, dissipation and external work, and what the interfaces carry.
 
 use super::converged::{Converged, InterfaceResponse};
-use super::loading::{Forces, Load};
+use super::loading::{LoadForces, StepLoad};
 use crate::assembly::{Joint, Model};
 use crate::coupling::LawPoint;
 use crate::law::{self, Law};
 use crate::output::Snapshot;
 use crate::problem::Problem;
-use crate::solver::Solution;
+use crate::solver::NodalSolution;
 
 /// Energy that an increment dissipates [force × length].
 pub(super) fn dissipation(problem: &Problem, found: &Converged) -> f64 {
@@ -69,10 +69,10 @@ pub(super) fn moved(problem: &Problem, snapshot: &Snapshot, found: &Converged) -
 pub(super) fn work_to(
     snapshot: &Snapshot,
     [before, reactions]: [&[f64]; 2],
-    solution: &Solution,
-    load: &Load,
+    solution: &NodalSolution,
+    load: &StepLoad,
 ) -> f64 {
-    let Forces { force, released, .. } = load.forces();
+    let LoadForces { force, released, .. } = load.forces();
     let at = |i: usize| {
         let before = before[i] + reactions[i];
         let now = force[i] + released[i] + solution.reactions[i];

@@ -1,11 +1,11 @@
 //! How a march ends before its last increment.
 
 use crate::error::Error;
-use crate::problem::{Problem, Stage};
+use crate::problem::{BoundStep, Problem};
 use crate::solver::Unconverged;
 
 /// A solution that is none: rounding or overflow has eaten it.
-pub(super) fn unusable(stage: &Stage, increment: usize, kept: usize, error: f64) -> Error {
+pub(super) fn unusable(stage: &BoundStep, increment: usize, kept: usize, error: f64) -> Error {
     let reason = if error.is_finite() {
         format!("rounding leaves a backward error of {error:.1e}")
     } else {
@@ -15,7 +15,7 @@ pub(super) fn unusable(stage: &Stage, increment: usize, kept: usize, error: f64)
 }
 
 /// A matrix that is not positive definite.
-pub(super) fn singular(stage: &Stage, kept: usize) -> Error {
+pub(super) fn singular(stage: &BoundStep, kept: usize) -> Error {
     let reason = "the stiffness is not positive definite in floating point".into();
     Error::NoEquilibrium { step: stage.name.clone(), increment: 1, reason, kept }
 }
@@ -23,7 +23,7 @@ pub(super) fn singular(stage: &Stage, kept: usize) -> Error {
 /// The smallest increment has none: where it was lost, and the law points that are farthest from it.
 pub(super) fn no_equilibrium(
     problem: &Problem,
-    stage: &Stage,
+    stage: &BoundStep,
     increment: usize,
     kept: usize,
     level: f64,

@@ -1,6 +1,6 @@
 //! Where in the history an increment stands.
 
-use crate::problem::Stage;
+use crate::problem::BoundStep;
 
 /// An increment of the history.
 #[derive(Debug, Clone, Copy)]
@@ -8,7 +8,7 @@ pub struct Increment<'a> {
     /// Number of the step, from 0.
     pub step: usize,
     /// The step.
-    pub stage: &'a Stage,
+    pub stage: &'a BoundStep,
     /// Number of the increment within its step, from 1; 0 is the unloaded state before the first.
     pub number: usize,
     /// Number of the increment over all steps.
@@ -25,7 +25,7 @@ pub struct Increment<'a> {
 
 impl<'a> Increment<'a> {
     /// Of a step, after so many increments over all steps.
-    pub(super) fn of(step: usize, stage: &'a Stage, increment: usize) -> Increment<'a> {
+    pub(super) fn of(step: usize, stage: &'a BoundStep, increment: usize) -> Increment<'a> {
         let (number, load_factor, iterations) = (0, 0.0, 0);
         Increment { step, stage, number, increment, load_factor, iterations, last: false, ended: false }
     }

@@ -9,9 +9,9 @@ use super::outcome::Outcome;
 use super::parts::advance;
 use super::progress::{LoadIncrement, Reached, StepProgress};
 use crate::error::Result;
-use crate::problem::Stage;
+use crate::problem::BoundStep;
 use crate::scene::Fields;
-use crate::solver::{Measure, Ramp};
+use crate::solver::{LinearMeasure, Ramp};
 
 /// Where a step in equal increments stands.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub(super) struct LoadStep {
 
 impl LoadStep {
     /// Before the first increment; `thrifty` as `prepare` says.
-    pub(super) fn new(stage: &Stage, thrifty: bool) -> LoadStep {
+    pub(super) fn new(stage: &BoundStep, thrifty: bool) -> LoadStep {
         LoadStep { number: 0, thrifty, at: StepProgress::new(1.0 / stage.increments as f64) }
     }
 }
@@ -34,7 +34,7 @@ impl LoadStep {
 /// a measure costs about as much as recovering one increment. A step that `follows` the path needs them.
 pub(super) fn prepare(
     analysis: &mut Analysis,
-    stage: &Stage,
+    stage: &BoundStep,
     start: &Start,
     ramp: Option<&Ramp>,
     follows: bool,
@@ -42,7 +42,7 @@ pub(super) fn prepare(
     let problem = analysis.problem;
     let known = active(problem).len() == problem.model.joints.len() || analysis.engine.finds_all_jumps();
     let unstored = problem.fields != Fields::Every && known && !follows;
-    let measures: Vec<Measure> =
+    let measures: Vec<LinearMeasure> =
         ramp.filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
     let thrifty = !measures.is_empty() && measures.len() < stage.increments;
     let measures = if thrifty { measures } else { Vec::new() };
@@ -54,7 +54,7 @@ pub(super) fn prepare(
 /// The next increment.
 pub(super) fn next(
     analysis: &mut Analysis,
-    stage: &Stage,
+    stage: &BoundStep,
     start: &Start,
     LoadStep { number, thrifty, at }: &mut LoadStep,
 ) -> Result<Reached> {

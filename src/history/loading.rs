@@ -5,21 +5,21 @@ use std::cell::OnceCell;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
-use crate::problem::{BoundProbe, Problem, Stage};
-use crate::solver::{Measure, Ramp};
+use crate::problem::{BoundProbe, BoundStep, Problem};
+use crate::solver::{LinearMeasure, Ramp};
 
 /// A load level of a step. Its forces are made when they are asked for: an increment without displacements needs none.
 #[derive(Debug, Clone)]
-pub(super) struct Load<'s> {
+pub(super) struct StepLoad<'s> {
     /// Load level in the step, 0 to 1.
     pub(super) level: f64,
     start: &'s Start<'s>,
-    forces: OnceCell<Forces>,
+    forces: OnceCell<LoadForces>,
 }
 
 /// Loads and prescribed displacements at one load level.
 #[derive(Debug, Clone)]
-pub(super) struct Forces {
+pub(super) struct LoadForces {
     /// External forces [force].
     pub(super) force: Vec<f64>,
     /// What is left of released reactions [force].
@@ -30,14 +30,14 @@ pub(super) struct Forces {
     pub(super) prescribed: Vec<f64>,
 }
 
-impl Load<'_> {
+impl StepLoad<'_> {
     /// Loads and prescribed displacements.
-    pub(super) fn forces(&self) -> &Forces {
+    pub(super) fn forces(&self) -> &LoadForces {
         self.forces.get_or_init(|| self.start.ramped(self.level))
     }
 
     /// The same.
-    pub(super) fn into_forces(self) -> Forces {
+    pub(super) fn into_forces(self) -> LoadForces {
         self.forces.into_inner().unwrap_or_else(|| self.start.ramped(self.level))
     }
 
@@ -54,7 +54,7 @@ impl Load<'_> {
 #[derive(Debug)]
 pub(super) struct Start<'a> {
     problem: &'a Problem,
-    stage: &'a Stage,
+    stage: &'a BoundStep,
     initial: Vec<f64>,
     u: Vec<f64>,
     reactions: Vec<f64>,
@@ -69,7 +69,7 @@ impl<'a> Start<'a> {
     /// Of displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
     pub(super) fn new(
         problem: &'a Problem,
-        stage: &'a Stage,
+        stage: &'a BoundStep,
         initial: Vec<f64>,
         u: Vec<f64>,
         reactions: Vec<f64>,
@@ -78,28 +78,28 @@ impl<'a> Start<'a> {
     }
 
     /// Loads at a level.
-    pub(super) fn at(&self, level: f64) -> Result<Load<'_>> {
-        let load = Load { level, start: self, forces: OnceCell::new() };
+    pub(super) fn at(&self, level: f64) -> Result<StepLoad<'_>> {
+        let load = StepLoad { level, start: self, forces: OnceCell::new() };
         if !self.stage.follows_load_factor() {
             return Ok(load);
         }
         // only formulas can fail
         let (force, prescribed) =
             (self.stage.force(&self.problem.model, level)?, self.stage.prescribed(&self.u, level)?);
-        Ok(Load { forces: OnceCell::from(self.forces(level, force, prescribed)), ..load })
+        Ok(StepLoad { forces: OnceCell::from(self.forces(level, force, prescribed)), ..load })
     }
 
     /// Forces of a step without formulas in the load factor.
-    fn ramped(&self, level: f64) -> Forces {
+    fn ramped(&self, level: f64) -> LoadForces {
         self.forces(level, self.stage.ramped(level), self.stage.moved(&self.u, level))
     }
 
-    fn forces(&self, level: f64, force: Vec<f64>, prescribed: Vec<f64>) -> Forces {
+    fn forces(&self, level: f64, force: Vec<f64>, prescribed: Vec<f64>) -> LoadForces {
         let mut released = vec![0.0; self.u.len()];
         let left = |dof: usize| (1.0 - level) * self.reactions[dof];
         self.stage.released.iter().for_each(|&dof| released[dof] = left(dof));
         let loaded = force.iter().zip(&released).zip(&self.initial).map(|((f, r), f0)| f + r - f0).collect();
-        Forces { force, released, loaded, prescribed }
+        LoadForces { force, released, loaded, prescribed }
     }
 
     /// Loads at both ends if they are affine between them.
@@ -127,26 +127,26 @@ impl<'a> Start<'a> {
     }
 
     /// What work, energy and history need of the displacements when these are not recovered: see `Ledger`.
-    pub(super) fn measures(&self, ramp: &Ramp) -> Vec<Measure> {
+    pub(super) fn measures(&self, ramp: &Ramp) -> Vec<LinearMeasure> {
         let terms = |at: &dyn Fn(usize) -> f64| -> Vec<(usize, f64)> {
             (0..self.u.len()).map(|i| (i, at(i))).filter(|(_, value)| *value != 0.0).collect()
         };
         let held = |i: usize| self.stage.held[i];
         let ([f0, f1], [u0, u1]) = (&ramp.force, &ramp.prescribed);
         let mut measures = vec![
-            Measure::Displacement(terms(&|i| f0[i])),
-            Measure::Displacement(terms(&|i| f1[i] - f0[i])),
-            Measure::Reaction(terms(&|i| if held(i) { u0[i] } else { 0.0 })),
-            Measure::Reaction(terms(&|i| if held(i) { u1[i] - u0[i] } else { 0.0 })),
-            Measure::Displacement(terms(&|i| self.initial[i])),
+            LinearMeasure::Displacement(terms(&|i| f0[i])),
+            LinearMeasure::Displacement(terms(&|i| f1[i] - f0[i])),
+            LinearMeasure::Reaction(terms(&|i| if held(i) { u0[i] } else { 0.0 })),
+            LinearMeasure::Reaction(terms(&|i| if held(i) { u1[i] - u0[i] } else { 0.0 })),
+            LinearMeasure::Displacement(terms(&|i| self.initial[i])),
         ];
         for (_, probe) in &self.problem.probes {
             if let BoundProbe::Displacement(weights) = probe {
-                measures.push(Measure::Displacement(weights.clone()));
+                measures.push(LinearMeasure::Displacement(weights.clone()));
             }
         }
         for reaction in &self.problem.reactions {
-            measures.push(Measure::Reaction(reaction.dofs.iter().map(|&dof| (dof, 1.0)).collect()));
+            measures.push(LinearMeasure::Reaction(reaction.dofs.iter().map(|&dof| (dof, 1.0)).collect()));
         }
         measures
     }

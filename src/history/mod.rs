@@ -43,7 +43,7 @@ pub use clock::{Clock, StageNow, processor};
 pub use equilibrium::strategy::Operations;
 pub use equilibrium::{Equations, Means};
 pub use increment::Increment;
-pub use state::State;
+pub use state::ModelState;
 pub use totals::{Snap, Totals};
 
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ use path::PathStep;
 use settle::{initial_force, settle};
 
 use crate::error::Result;
-use crate::problem::{Problem, Stage};
+use crate::problem::{BoundStep, Problem};
 use crate::scene::Control;
 use crate::solver::{Ramp, Unconverged};
 
@@ -87,9 +87,9 @@ enum Phase {
     /// Its loads are still to be prepared.
     Loads,
     /// Increments of the load factor.
-    Load(LoadStep),
+    StepLoad(LoadStep),
     /// Increments along the path.
-    Path(PathStep),
+    PathSearch(PathStep),
     /// No equilibrium beyond an increment, at a load factor; the last one has been given once more, or not.
     Lost { number: usize, load_factor: f64, why: Unconverged, shown: bool },
 }
@@ -98,7 +98,7 @@ enum Phase {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Checkpoint {
     position: Position,
-    state: State,
+    state: ModelState,
     totals: Totals,
     search: Search,
     /// Displacements and reactions at the start of the step under way.
@@ -114,7 +114,7 @@ impl<'a> History<'a> {
             factor_entries: equations.factor_entries,
             ..Totals::default()
         };
-        let (engine, state) = (equations.engine(), State::unloaded(problem));
+        let (engine, state) = (equations.engine(), ModelState::unloaded(problem));
         let position = Position { step: 0, phase: Phase::Supports };
         History { analysis: Analysis { problem, engine, state, totals, clock }, position, loads: None }
     }
@@ -144,7 +144,7 @@ impl<'a> History<'a> {
                     stage,
                     &start,
                     ramp.as_ref(),
-                    matches!(position.phase, Phase::Path(_)),
+                    matches!(position.phase, Phase::PathSearch(_)),
                 );
                 loads = Some((start, ramp));
             }
@@ -162,7 +162,7 @@ impl<'a> History<'a> {
     }
 
     /// The model after the last increment.
-    pub fn state(&self) -> &State {
+    pub fn state(&self) -> &ModelState {
         &self.analysis.state
     }
 
@@ -192,7 +192,7 @@ impl<'a> History<'a> {
     }
 
     /// The next phase of a step, and the increment that it gives.
-    fn go_on(&mut self, step: usize, stage: &'a Stage) -> Result<Option<Increment<'a>>> {
+    fn go_on(&mut self, step: usize, stage: &'a BoundStep) -> Result<Option<Increment<'a>>> {
         let History { analysis, position, loads } = self;
         let at = Increment::of(step, stage, analysis.totals.increments);
         let reached = match (&mut position.phase, loads) {
@@ -205,8 +205,10 @@ impl<'a> History<'a> {
                 position.phase = Phase::Loads;
                 return Ok((step == 0).then_some(at));
             }
-            (Phase::Load(at), Some((start, _))) => load::next(analysis, stage, start, at)?,
-            (Phase::Path(at), Some((start, Some(ramp)))) => path::next(analysis, stage, start, ramp, at)?,
+            (Phase::StepLoad(at), Some((start, _))) => load::next(analysis, stage, start, at)?,
+            (Phase::PathSearch(at), Some((start, Some(ramp)))) => {
+                path::next(analysis, stage, start, ramp, at)?
+            }
             (Phase::Lost { number, load_factor, why, shown }, loads) => {
                 let increment = analysis.totals.increments;
                 if let (false, Some((start, _)), 1..) = (*shown, loads, increment) {
@@ -218,7 +220,7 @@ impl<'a> History<'a> {
                 }
                 return Err(no_equilibrium(analysis.problem, stage, *number, increment, *load_factor, why));
             }
-            (Phase::Loads | Phase::Load(_) | Phase::Path(_), _) => {
+            (Phase::Loads | Phase::StepLoad(_) | Phase::PathSearch(_), _) => {
                 self.open(step, stage)?;
                 return Ok(None);
             }
@@ -239,10 +241,10 @@ impl<'a> History<'a> {
     }
 
     /// Prepares the loads of a step.
-    fn open(&mut self, step: usize, stage: &'a Stage) -> Result<()> {
+    fn open(&mut self, step: usize, stage: &'a BoundStep) -> Result<()> {
         let History { analysis, position, loads } = self;
         let problem = analysis.problem;
-        let start = |state: &State| {
+        let start = |state: &ModelState| {
             let (u, reactions) = (state.snapshot.u.clone(), state.reactions.clone());
             Start::new(problem, stage, initial_force(problem), u, reactions)
         };
@@ -256,8 +258,8 @@ impl<'a> History<'a> {
         let thrifty = load::prepare(analysis, stage, &start, ramp.as_ref(), follows);
         analysis.state.open(ramp.as_ref().filter(|_| thrifty).map(|ramp| start.ledger(ramp)));
         position.phase = match follows {
-            true => Phase::Path(PathStep::new(stage, analysis.state.dissipated)),
-            false => Phase::Load(LoadStep::new(stage, thrifty)),
+            true => Phase::PathSearch(PathStep::new(stage, analysis.state.dissipated)),
+            false => Phase::StepLoad(LoadStep::new(stage, thrifty)),
         };
         *loads = Some((start, ramp));
         Ok(())

@@ -16,7 +16,7 @@ use super::outcome::Outcome;
 use super::progress::{LoadIncrement, PathProgress, Reached, StepProgress};
 use super::viscous::viscous;
 use crate::error::Result;
-use crate::problem::Stage;
+use crate::problem::BoundStep;
 use crate::scene::Control;
 use crate::solver::{Ramp, Unconverged};
 
@@ -37,7 +37,7 @@ pub(super) struct PathStep {
 
 impl PathStep {
     /// Before the first increment, with the energy dissipated so far.
-    pub(super) fn new(stage: &Stage, dissipated: f64) -> PathStep {
+    pub(super) fn new(stage: &BoundStep, dissipated: f64) -> PathStep {
         let at = PathProgress {
             level: 0.0,
             change: 0.0,
@@ -57,7 +57,7 @@ impl PathStep {
 /// The next increment.
 pub(super) fn next(
     analysis: &mut Analysis,
-    stage: &Stage,
+    stage: &BoundStep,
     start: &Start,
     ramp: &Ramp,
     PathStep { number, at, rising, passed }: &mut PathStep,
@@ -106,7 +106,7 @@ fn go_on(
     analysis: &mut Analysis,
     start: &Start,
     at: &mut PathProgress,
-    stage: &Stage,
+    stage: &BoundStep,
     part: f64,
 ) -> Result<Outcome<usize>> {
     let goal = (at.level + part).min(1.0);

@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::loading::Start;
-use crate::problem::Stage;
+use crate::problem::BoundStep;
 use crate::solver::Unconverged;
 
 /// One increment of a step.
 pub(super) struct LoadIncrement<'a, 'b> {
     pub(super) start: &'b Start<'a>,
-    pub(super) stage: &'b Stage,
+    pub(super) stage: &'b BoundStep,
     /// Number within its step.
     pub(super) number: usize,
     /// Load factor at its end.

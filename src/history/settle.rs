@@ -3,15 +3,15 @@
 use super::analysis::Analysis;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::{no_equilibrium, unusable};
-use super::loading::{Forces, Start};
+use super::loading::{LoadForces, Start};
 use crate::error::Result;
-use crate::problem::{Problem, Stage};
+use crate::problem::{BoundStep, Problem};
 
 /// Initial tractions whose forces are out of balance by less than this part are so by rounding.
 const ROUNDED: f64 = 1e-10;
 
 /// Lets initial tractions, and those of overlaps, that supports and loads do not hold relax, before the first increment.
-pub(super) fn settle(analysis: &mut Analysis, stage: &Stage, start: &Start) -> Result<()> {
+pub(super) fn settle(analysis: &mut Analysis, stage: &BoundStep, start: &Start) -> Result<()> {
     let problem = analysis.problem;
     let mut tractions = vec![0.0; problem.model.dofs()];
     let mut sum = 0.0;
@@ -32,7 +32,7 @@ pub(super) fn settle(analysis: &mut Analysis, stage: &Stage, start: &Start) -> R
         return Ok(());
     }
     let load = start.at(0.0)?;
-    let Forces { force, released, .. } = load.forces();
+    let LoadForces { force, released, .. } = load.forces();
     // forces of what is not in equilibrium at the start, on free dofs
     let left: Vec<f64> = (0..tractions.len())
         .map(|i| if stage.held[i] { 0.0 } else { force[i] + released[i] - tractions[i] })

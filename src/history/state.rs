@@ -13,17 +13,17 @@ use serde::{Deserialize, Serialize};
 
 use super::converged::{Converged, InterfaceResponse};
 use super::energy::{across, elastic_energy, work_to};
-use super::loading::{Forces, Ledger, Load};
+use super::loading::{Ledger, LoadForces, StepLoad};
 use crate::assembly::{Joint, Model};
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Law};
 use crate::output::Snapshot;
 use crate::problem::{BoundProbe, ProbeInput, Problem};
-use crate::solver::Solution;
+use crate::solver::NodalSolution;
 
 /// The model after an increment.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct State {
+pub struct ModelState {
     /// Jumps, tractions and states of the joints; displacements and stresses of the bodies where fields are stored, else
     /// none.
     pub snapshot: Snapshot,
@@ -51,9 +51,9 @@ pub struct State {
     found: Vec<bool>,
 }
 
-impl State {
+impl ModelState {
     /// Before the first increment.
-    pub(super) fn unloaded(problem: &Problem) -> State {
+    pub(super) fn unloaded(problem: &Problem) -> ModelState {
         let u = vec![0.0; problem.model.dofs()];
         let none = |joint: &Joint| vec![[0.0; 2]; joint.coupling.points.len()];
         let snapshot = Snapshot {
@@ -65,7 +65,7 @@ impl State {
         let (force, reactions) = (u.clone(), u);
         let (stored, dissipated, work, released, largest) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let (residual, residuals) = (0.0, vec![0.0]);
-        let mut state = State {
+        let mut state = ModelState {
             snapshot,
             force,
             reactions,
@@ -94,7 +94,7 @@ impl State {
     }
 
     /// Takes what converged under a load.
-    pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: Load) {
+    pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: StepLoad) {
         let Converged { solution, mut ledger, joints, released, residuals, .. } = found;
         self.released += released;
         self.work += match (&ledger, &self.ledger, &solution) {
@@ -112,8 +112,8 @@ impl State {
         }
         self.ledger = ledger;
         (self.snapshot.u, self.force, self.reactions) = (Vec::new(), Vec::new(), Vec::new());
-        if let Some(Solution { u, mut reactions, .. }) = solution {
-            let Forces { force, released, .. } = load.into_forces();
+        if let Some(NodalSolution { u, mut reactions, .. }) = solution {
+            let LoadForces { force, released, .. } = load.into_forces();
             reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
             (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
         }
@@ -140,9 +140,9 @@ impl State {
     }
 
     /// Takes what an increment without stored fields has left out.
-    pub(super) fn complete(&mut self, problem: &Problem, solution: Solution, load: Load) {
-        let Solution { u, mut reactions, .. } = solution;
-        let Forces { force, released, .. } = load.into_forces();
+    pub(super) fn complete(&mut self, problem: &Problem, solution: NodalSolution, load: StepLoad) {
+        let NodalSolution { u, mut reactions, .. } = solution;
+        let LoadForces { force, released, .. } = load.into_forces();
         reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
         (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
         self.recover(problem);

@@ -4,7 +4,7 @@ use super::analysis::Analysis;
 use super::converged::Converged;
 use super::energy::{carried, change, moved};
 use super::equilibrium::{Ahead, Failure, Viscous};
-use super::loading::Load;
+use super::loading::StepLoad;
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use crate::error::Result;
@@ -99,14 +99,14 @@ pub(super) fn creep(
 }
 
 /// √(Σ w |Δr|²) of interfaces that move twice as far as what is prescribed.
-fn driven(analysis: &Analysis, leg: &LoadIncrement, load: &Load) -> f64 {
+fn driven(analysis: &Analysis, leg: &LoadIncrement, load: &StepLoad) -> f64 {
     let ways = load.forces().prescribed.iter().zip(&analysis.state.snapshot.u).zip(&leg.stage.held);
     let most = ways.filter(|(_, held)| **held).map(|((a, b), _)| (a - b).abs()).fold(0.0, f64::max);
     let joints = analysis.problem.model.joints.iter().flat_map(|joint| &joint.coupling.points);
     2.0 * most * joints.map(|point| point.weight).sum::<f64>().sqrt()
 }
 
-fn take_viscous(analysis: &mut Analysis, found: Converged, load: Load, stretch: &mut ViscousStretch) {
+fn take_viscous(analysis: &mut Analysis, found: Converged, load: StepLoad, stretch: &mut ViscousStretch) {
     let level = load.level;
     for of in &found.joints {
         let states = &analysis.state.snapshot.states[of.joint];

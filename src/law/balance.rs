@@ -5,11 +5,11 @@
 
 use nalgebra::{Matrix2, Vector2};
 
-use super::{Law, Response, State, Stepping};
+use super::{Integration, Law, Response, State};
 
 /// What is prescribed of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Target {
+pub(super) enum Prescribed {
     /// The jump [length].
     Jump(f64),
     /// The traction [stress].
@@ -32,17 +32,21 @@ const HALVINGS: usize = 12;
 pub(super) fn balance(
     law: &Law,
     old: &State,
-    targets: [Target; 2],
-    stepping: Stepping,
+    targets: [Prescribed; 2],
+    stepping: Integration,
 ) -> Result<State, String> {
     let respond = |jump| law.respond(jump, old, stepping).map_err(|unresolved| unresolved.to_string());
     match targets {
-        [Target::Jump(n), Target::Jump(t)] => Ok(respond(Vector2::new(n, t))?.state),
-        [Target::Traction(sigma), Target::Traction(tau)] => both(law, old, Vector2::new(sigma, tau), respond),
-        [Target::Traction(sigma), Target::Jump(t)] => {
+        [Prescribed::Jump(n), Prescribed::Jump(t)] => Ok(respond(Vector2::new(n, t))?.state),
+        [Prescribed::Traction(sigma), Prescribed::Traction(tau)] => {
+            both(law, old, Vector2::new(sigma, tau), respond)
+        }
+        [Prescribed::Traction(sigma), Prescribed::Jump(t)] => {
             one(law, old, 0, sigma, |x| respond(Vector2::new(x, t)))
         }
-        [Target::Jump(n), Target::Traction(tau)] => one(law, old, 1, tau, |x| respond(Vector2::new(n, x))),
+        [Prescribed::Jump(n), Prescribed::Traction(tau)] => {
+            one(law, old, 1, tau, |x| respond(Vector2::new(n, x)))
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::coulomb::OPEN;
-use super::{Coulomb, Cracking, Law, Response, State, Stepping, Unresolved};
+use super::{Coulomb, Cracking, Integration, Law, Response, State, Unresolved};
 
 /// Part of G_I that counts as all of it.
 const SPENT: f64 = 1.0 - 1e-9;
@@ -27,7 +27,7 @@ impl Law {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Stepping,
+        stepping: Integration,
         all: bool,
     ) -> Result<Response, Unresolved> {
         match self {

@@ -49,7 +49,7 @@ pub enum Law {
 
 /// How a law that depends on the way divides the way from the old jump to the new one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stepping {
+pub enum Integration {
     /// Second order with sub-steps chosen so that the traction is within this tolerance, relative to the larger of
     /// tensile strength and cohesion.
     Tolerance(f64),
@@ -256,7 +256,7 @@ impl Law {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Stepping,
+        stepping: Integration,
     ) -> Result<Response, Unresolved> {
         if !(jump.x.is_finite() && jump.y.is_finite()) {
             return Err(Unresolved::NotFinite { jump });

@@ -15,14 +15,14 @@ use std::io::{self, Write};
 use nalgebra::Vector2;
 use serde::Deserialize;
 
-use super::balance::{Target, balance};
-use super::{Law, State, Stepping, Strength};
+use super::balance::{Prescribed, balance};
+use super::{Integration, Law, State, Strength};
 
 /// A path as read from its file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Path {
+pub struct LawPath {
     /// Segments, one after the other.
-    pub program: Vec<Segment>,
+    pub program: Vec<PathSegment>,
     /// Where the point starts; by default sound, at rest, under the interface's initial traction.
     #[serde(default)]
     pub initial: Option<Initial>,
@@ -30,11 +30,11 @@ pub struct Path {
 
 /// A straight piece of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-pub struct Segment {
+pub struct PathSegment {
     /// Normal component.
-    pub n: Control,
+    pub n: ComponentControl,
     /// Tangential component.
-    pub t: Control,
+    pub t: ComponentControl,
     /// Rows stored after the start, equally spaced.
     pub points: usize,
 }
@@ -42,7 +42,7 @@ pub struct Segment {
 /// What is prescribed of one component, and its values at the ends of the segment.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Control {
+pub struct ComponentControl {
     /// Displacement (the jump) or stress (the traction).
     pub control: Controlled,
     /// Value at the start; it must be the value reached before.
@@ -80,7 +80,7 @@ pub struct Initial {
 
 /// A stored point of the path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct PathRow {
     /// Segment number plus the fraction of it.
     pub s: f64,
     /// Jump, traction, irreversible jump, fracture work and status there.
@@ -110,7 +110,7 @@ pub enum PathError {
         /// Why.
         reason: String,
         /// The rows up to there.
-        rows: Vec<Row>,
+        rows: Vec<PathRow>,
     },
 }
 
@@ -126,7 +126,12 @@ const SHORTEST: f64 = 1e-7;
 const ROUNDING: f64 = 1e-11;
 
 /// Drives a point of `law` from `start` (the interface's initial state) along a path; the first row is the start.
-pub fn drive(law: &Law, path: &Path, start: &State, stepping: Stepping) -> Result<Vec<Row>, PathError> {
+pub fn drive(
+    law: &Law,
+    path: &LawPath,
+    start: &State,
+    stepping: Integration,
+) -> Result<Vec<PathRow>, PathError> {
     let mut state = match &path.initial {
         None => *start,
         Some(Initial { u_n, u_t, up_n, up_t, work }) => {
@@ -135,7 +140,7 @@ pub fn drive(law: &Law, path: &Path, start: &State, stepping: Stepping) -> Resul
             })?
         }
     };
-    let row = |s: f64, state: &State| Row { s, state: *state, strength: law.strength(state) };
+    let row = |s: f64, state: &State| PathRow { s, state: *state, strength: law.strength(state) };
     let mut rows = vec![row(0.0, &state)];
     let mut length = 1.0; // of the next division under stress control, per row
     for (k, segment) in path.program.iter().enumerate() {
@@ -153,9 +158,9 @@ pub fn drive(law: &Law, path: &Path, start: &State, stepping: Stepping) -> Resul
 }
 
 /// Writes the rows as CSV, the header first; the elastic law leaves the strength columns empty.
-pub fn write_csv(rows: &[Row], mut out: impl Write) -> io::Result<()> {
+pub fn write_csv(rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{COLUMNS}")?;
-    for Row { s, state, strength } in rows {
+    for PathRow { s, state, strength } in rows {
         write!(out, "{s},{:e},{:e}", state.jump.x, state.jump.y)?;
         write!(out, ",{:e},{:e},{:e}", state.traction.x, state.traction.y, state.fracture_work)?;
         write!(out, ",{:e},{:e}", state.jump_plastic.x, state.jump_plastic.y)?;
@@ -170,14 +175,14 @@ pub fn write_csv(rows: &[Row], mut out: impl Write) -> io::Result<()> {
     Ok(())
 }
 
-impl Segment {
+impl PathSegment {
     /// What is prescribed at a fraction of the segment.
-    fn target(&self, fraction: f64) -> [Target; 2] {
-        [self.n, self.t].map(|Control { control, start, end }| {
+    fn target(&self, fraction: f64) -> [Prescribed; 2] {
+        [self.n, self.t].map(|ComponentControl { control, start, end }| {
             let value = if fraction >= 1.0 { end } else { start + fraction * (end - start) };
             match control {
-                Controlled::Displacement => Target::Jump(value),
-                Controlled::Stress => Target::Traction(value),
+                Controlled::Displacement => Prescribed::Jump(value),
+                Controlled::Stress => Prescribed::Traction(value),
             }
         })
     }
@@ -215,18 +220,18 @@ impl Segment {
 fn between_rows(
     law: &Law,
     from: &State,
-    at: impl Fn(f64) -> [Target; 2],
-    stepping: Stepping,
+    at: impl Fn(f64) -> [Prescribed; 2],
+    stepping: Integration,
     length: &mut f64,
 ) -> Result<State, (f64, String)> {
-    let straight = at(1.0).iter().all(|target| matches!(target, Target::Jump(_)));
+    let straight = at(1.0).iter().all(|target| matches!(target, Prescribed::Jump(_)));
     let (tolerance, strength) = match (law, stepping) {
-        (Law::Cracking(law), Stepping::Tolerance(tolerance)) if !straight => (tolerance, law),
-        (_, Stepping::BackwardEuler(steps)) if !straight => {
+        (Law::Cracking(law), Integration::Tolerance(tolerance)) if !straight => (tolerance, law),
+        (_, Integration::BackwardEuler(steps)) if !straight => {
             let mut state = *from;
             for step in 1..=steps.max(1) {
                 let part = step as f64 / steps.max(1) as f64;
-                state = balance(law, &state, at(part), Stepping::BackwardEuler(1))
+                state = balance(law, &state, at(part), Integration::BackwardEuler(1))
                     .map_err(|reason| (part, reason))?;
             }
             return Ok(state);

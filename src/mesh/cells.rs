@@ -1,14 +1,14 @@
 //! Cells as the program relies on them: counter-clockwise, with a Jacobian that is positive everywhere it is used.
 
 use super::Cells;
-use super::msh::{Fault, damaged};
+use super::msh::{MeshFault, damaged};
 use crate::shape::{MAX_NODES, Shape, Values};
 
 /// A Jacobian below this part of the cell's squared diameter counts as zero.
 const FLAT: f64 = 1e-12;
 
 /// Turns clockwise cells over and refuses those that are flat, crossed, concave or bent too far.
-pub(super) fn orient(cells: &mut Cells, points: &[[f64; 2]], tags: &[u64]) -> Result<(), Fault> {
+pub(super) fn orient(cells: &mut Cells, points: &[[f64; 2]], tags: &[u64]) -> Result<(), MeshFault> {
     let probes = SHAPES.map(probes);
     for c in 0..cells.len() {
         let shape = cells.shapes[c];
@@ -91,7 +91,7 @@ fn reverse(shape: Shape, nodes: &mut [usize]) {
     }
 }
 
-fn refuse(shape: Shape, tag: u64, x: &[[f64; 2]]) -> Fault {
+fn refuse(shape: Shape, tag: u64, x: &[[f64; 2]]) -> MeshFault {
     let corners = shape.corners();
     let size = FLAT * squared_diameter(x);
     let turn = |i: usize| doubled_area(&[x[(i + corners - 1) % corners], x[i], x[(i + 1) % corners]]);
@@ -116,7 +116,7 @@ fn refuse(shape: Shape, tag: u64, x: &[[f64; 2]]) -> Fault {
             "use a finer mesh or Mesh.HighOrderOptimize = 1",
         )
     };
-    Fault { what, cure: cure.into() }
+    MeshFault { what, cure: cure.into() }
 }
 
 #[cfg(test)]
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     /// One cell on the nodes of the reference cell, moved by `change`.
-    fn one(shape: Shape, change: impl Fn(&mut Vec<[f64; 2]>)) -> Result<Cells, Fault> {
+    fn one(shape: Shape, change: impl Fn(&mut Vec<[f64; 2]>)) -> Result<Cells, MeshFault> {
         let mut points = shape.node_points().to_vec();
         change(&mut points);
         let mut cells = Cells::default();

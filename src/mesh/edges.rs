@@ -3,7 +3,7 @@
 //! Every counter-clockwise cell walks its edges with itself on the left, so that in a sound mesh each directed edge
 //! start → end occurs once. They are kept in compressed rows by start: flat arrays, time linear in the mesh.
 
-use super::msh::Fault;
+use super::msh::MeshFault;
 use super::{Cells, Edge};
 
 /// Directed edges by start node.
@@ -16,9 +16,9 @@ pub(super) struct EdgeTable {
 
 impl EdgeTable {
     /// Collects the edges; refuses two cells on the same side of one edge and cells that disagree about its mid-node.
-    pub(super) fn new(cells: &Cells, points: usize, tags: &[u64]) -> Result<EdgeTable, Fault> {
+    pub(super) fn new(cells: &Cells, points: usize, tags: &[u64]) -> Result<EdgeTable, MeshFault> {
         if cells.len() > (u32::MAX / 4) as usize {
-            return Err(Fault {
+            return Err(MeshFault {
                 what: format!("has {} cells", cells.len()),
                 cure: "use a coarser mesh".into(),
             });
@@ -41,7 +41,7 @@ impl EdgeTable {
             row.sort_unstable();
             if let Some(pair) = row.windows(2).find(|pair| pair[0][0] == pair[1][0]) {
                 let [a, b] = [pair[0][1], pair[1][1]].map(|c| tags[c as usize]);
-                return Err(Fault {
+                return Err(MeshFault {
                     what: format!("elements {a} and {b} lie on the same side of one edge: they overlap"),
                     cure: "look for surfaces that cover each other in the .geo".into(),
                 });
@@ -79,7 +79,7 @@ impl EdgeTable {
         found
     }
 
-    fn same_mid_nodes(&self, cells: &Cells, tags: &[u64]) -> Result<(), Fault> {
+    fn same_mid_nodes(&self, cells: &Cells, tags: &[u64]) -> Result<(), MeshFault> {
         if !cells.shapes.iter().any(|shape| shape.is_quadratic()) {
             return Ok(());
         }
@@ -89,7 +89,7 @@ impl EdgeTable {
                 let Some((other, nodes)) = self.left(cells, end, start) else { continue };
                 let mids = [(mid, end), (nodes[2], start)].map(|(mid, last)| (mid != last).then_some(mid));
                 if mids[0] != mids[1] {
-                    return Err(Fault {
+                    return Err(MeshFault {
                         what: format!(
                             "elements {} and {} share an edge but not its mid-node",
                             tags[c], tags[other]

@@ -3,10 +3,10 @@
 use indexmap::IndexMap;
 
 use super::edges::EdgeTable;
-use super::msh::{Content, Declared, Fault, KINDS};
+use super::msh::{Content, Declared, KINDS, MeshFault};
 use super::{Cells, Edge, Group};
 
-type Found<T> = Result<T, Fault>;
+type GroupResult<T> = Result<T, MeshFault>;
 
 /// Number of a node that no cell uses.
 pub(super) const UNUSED: u32 = u32::MAX;
@@ -17,7 +17,7 @@ pub(super) fn gather(
     cells: &Cells,
     edges: &EdgeTable,
     numbers: &[u32],
-) -> Found<IndexMap<String, Group>> {
+) -> GroupResult<IndexMap<String, Group>> {
     let mut members = vec![Vec::new(); content.declared.len()];
     let mut order: Vec<usize> = (0..content.declared.len()).collect();
     let key = |group: &usize| (content.declared[*group].dim, content.declared[*group].tag);
@@ -40,7 +40,7 @@ pub(super) fn gather(
         let group = clash(&content.declared, i).map_or(group, Err);
         // a group with a fault is no reason to refuse a mesh whose scene does not name it
         let kind = KINDS[declared.dim];
-        let group = group.unwrap_or_else(|Fault { what, cure }| Group::Unusable { kind, what, cure });
+        let group = group.unwrap_or_else(|MeshFault { what, cure }| Group::Unusable { kind, what, cure });
         match groups.get_mut(&declared.name) {
             None => drop(groups.insert(declared.name.clone(), group)),
             Some(Group::Namesakes(all)) => all.push(group),
@@ -52,20 +52,20 @@ pub(super) fn gather(
 }
 
 /// The fault of a group that shares its name with another of its dimension, or has two names.
-fn clash(declared: &[Declared], group: usize) -> Option<Fault> {
+fn clash(declared: &[Declared], group: usize) -> Option<MeshFault> {
     let one = &declared[group];
     let title = |group: &Declared| format!("physical {} {}", KINDS[group.dim], group.tag);
     let others = || declared.iter().enumerate().filter(|(i, other)| *i != group && other.dim == one.dim);
     if let Some((i, other)) = others().find(|(_, other)| other.name == one.name) {
         let [first, second] = if i < group { [other, one] } else { [one, other] };
-        return Some(Fault {
+        return Some(MeshFault {
             what: format!("{} and {} are both called \"{}\"", title(first), title(second), one.name),
             cure: "give each physical group a name of its own".into(),
         });
     }
     others().find(|(_, other)| other.tag == one.tag).map(|(i, other)| {
         let [first, second] = if i < group { [other, one] } else { [one, other] };
-        Fault {
+        MeshFault {
             what: format!("{} is called \"{}\" and \"{}\"", title(one), first.name, second.name),
             cure: "give each physical group one name".into(),
         }
@@ -77,7 +77,12 @@ fn ascending(mut members: Vec<usize>) -> Vec<usize> {
     members
 }
 
-fn points(group: &Declared, members: &[usize], content: &Content, numbers: &[u32]) -> Found<Vec<usize>> {
+fn points(
+    group: &Declared,
+    members: &[usize],
+    content: &Content,
+    numbers: &[u32],
+) -> GroupResult<Vec<usize>> {
     let mut points = Vec::with_capacity(members.len());
     for &member in members {
         let node = content.vertices[member] as usize;
@@ -100,7 +105,7 @@ fn curve(
     cells: &Cells,
     table: &EdgeTable,
     numbers: &[u32],
-) -> Found<Vec<Edge>> {
+) -> GroupResult<Vec<Edge>> {
     let mut edges = Vec::with_capacity(members.len());
     let mut keys = Vec::with_capacity(members.len());
     for &member in members {
@@ -114,7 +119,7 @@ fn curve(
             .ok_or_else(|| loose(group, &format!("element {tag}")))?;
         let has_mid = nodes[2] != u32::MAX;
         if has_mid != cells.shapes[found.cell].is_quadratic() || has_mid && found.nodes[2] != mid as usize {
-            return Err(Fault {
+            return Err(MeshFault {
                 what: format!(
                     "element {tag} of curve \"{}\" and element {} beside it do not have the same mid-node",
                     group.name, content.tags[2][found.cell]
@@ -132,9 +137,9 @@ fn curve(
     }
 }
 
-fn loose(group: &Declared, what: &str) -> Fault {
+fn loose(group: &Declared, what: &str) -> MeshFault {
     let kind = KINDS[group.dim];
-    Fault {
+    MeshFault {
         what: format!("physical {kind} \"{}\": {what} lies on no cell", group.name),
         cure: format!(
             "a physical {kind} must belong to a meshed surface (in a Physical Surface, embedded if inside)"
@@ -142,8 +147,8 @@ fn loose(group: &Declared, what: &str) -> Fault {
     }
 }
 
-fn twice(group: &Declared, what: &str) -> Fault {
-    Fault {
+fn twice(group: &Declared, what: &str) -> MeshFault {
+    MeshFault {
         what: format!("physical {} \"{}\" holds {what} twice", KINDS[group.dim], group.name),
         cure: "list each point and curve once, and no two that coincide".into(),
     }

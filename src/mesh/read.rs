@@ -6,7 +6,7 @@ use std::path::Path;
 use super::cells::orient;
 use super::edges::EdgeTable;
 use super::groups::{UNUSED, gather};
-use super::msh::{self, Content, Fault};
+use super::msh::{self, Content, MeshFault};
 use super::{Cells, Mesh};
 use crate::error::{Error, Result};
 
@@ -44,11 +44,11 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Mesh> {
     msh::content(bytes).and_then(|content| build(path, content)).map_err(at(path))
 }
 
-fn at(path: &Path) -> impl Fn(Fault) -> Error {
+fn at(path: &Path) -> impl Fn(MeshFault) -> Error {
     move |fault| Error::mesh(path, fault.what, fault.cure)
 }
 
-fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, Fault> {
+fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, MeshFault> {
     on_plane(&content)?;
     let numbers = drop_unused(&mut content);
     let mut cells =
@@ -63,7 +63,7 @@ fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, Fault> 
 }
 
 /// Refuses nodes off the plane z = 0.
-fn on_plane(content: &Content) -> std::result::Result<(), Fault> {
+fn on_plane(content: &Content) -> std::result::Result<(), MeshFault> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for point in &content.points {
         for d in 0..2 {
@@ -73,7 +73,7 @@ fn on_plane(content: &Content) -> std::result::Result<(), Fault> {
     let (z, tag) = content.off_plane;
     let extent = (high[0] - low[0]).max(high[1] - low[1]);
     if z > ON_PLANE * extent {
-        return Err(Fault {
+        return Err(MeshFault {
             what: format!("node {tag} is off the plane, |z| = {z:e}"),
             cure: "all points of a plane mesh have z = 0".into(),
         });

@@ -43,7 +43,7 @@ pub struct Touch {
 
 /// A boundary edge as a straight line.
 #[derive(Debug, Clone, Copy)]
-struct Line {
+struct BoundaryLine {
     body: usize,
     edge: Edge,
     ends: [[f64; 2]; 2],
@@ -54,7 +54,7 @@ struct Line {
 }
 
 /// The length that two lines share, and where it starts and ends along the first.
-struct Shared {
+struct SharedLength {
     lines: [usize; 2],
     part: Stretch,
 }
@@ -62,7 +62,7 @@ struct Shared {
 /// The part of a line that another line shares.
 struct Stretch {
     /// Nodes that end it.
-    ends: Ends,
+    ends: EndNodes,
     /// Its corner with the smallest x and y.
     corner: [f64; 2],
     /// Its length.
@@ -72,11 +72,11 @@ struct Stretch {
 }
 
 /// At start and end of a shared length: the node of either body that ends it.
-type Ends = [[Option<usize>; 2]; 2];
+type EndNodes = [[Option<usize>; 2]; 2];
 
 /// An end of a shared length, sorted so that what ends at one node stands together.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct End {
+struct LengthEnd {
     bodies: [usize; 2],
     side: usize,
     node: usize,
@@ -112,20 +112,20 @@ pub fn coinciding(
 }
 
 /// The boundaries of all bodies.
-fn all_lines(meshes: &[&Mesh]) -> Result<Vec<Vec<Line>>> {
-    let lines: Vec<Result<Vec<Line>>> =
+fn all_lines(meshes: &[&Mesh]) -> Result<Vec<Vec<BoundaryLine>>> {
+    let lines: Vec<Result<Vec<BoundaryLine>>> =
         meshes.par_iter().enumerate().map(|(b, mesh)| lines(b, mesh)).collect();
     lines.into_iter().collect()
 }
 
 /// The lengths that pairs of lines share; `wanted` is asked with the numbers of both.
-fn shared(lines: &[Line], wanted: &(dyn Fn([usize; 2]) -> bool + Sync)) -> Vec<Shared> {
+fn shared(lines: &[BoundaryLine], wanted: &(dyn Fn([usize; 2]) -> bool + Sync)) -> Vec<SharedLength> {
     let numbered = lines.iter().enumerate().map(|(i, line)| Numbered(i, line.surroundings()));
     let tree = RTree::bulk_load(numbered.collect());
     let of_line = |a: usize| {
         let near = tree.locate_in_envelope_intersecting(lines[a].surroundings()).map(|found| found.0);
         near.filter(|&b| b != a && wanted([a, b]))
-            .filter_map(|b| lines[a].share(&lines[b]).map(|part| Shared { lines: [a, b], part }))
+            .filter_map(|b| lines[a].share(&lines[b]).map(|part| SharedLength { lines: [a, b], part }))
             .collect::<Vec<_>>()
     };
     (0..lines.len()).into_par_iter().flat_map_iter(of_line).collect()
@@ -143,9 +143,9 @@ impl RTreeObject for Numbered {
 }
 
 /// The lines of all bodies that reach into the box around another body.
-fn within_reach(bodies: Vec<Vec<Line>>) -> Vec<Line> {
-    let around = |lines: &Vec<Line>| {
-        let boxes = lines.iter().map(Line::surroundings);
+fn within_reach(bodies: Vec<Vec<BoundaryLine>>) -> Vec<BoundaryLine> {
+    let around = |lines: &Vec<BoundaryLine>| {
+        let boxes = lines.iter().map(BoundaryLine::surroundings);
         boxes.fold(AABB::new_empty(), |all: AABB<[f64; 2]>, one| all.merged(&one))
     };
     let boxes: Vec<AABB<[f64; 2]>> = bodies.iter().map(around).collect();
@@ -158,8 +158,9 @@ fn within_reach(bodies: Vec<Vec<Line>>) -> Vec<Line> {
 }
 
 /// The boundary of a body, with the reach of every edge.
-fn lines(body: usize, mesh: &Mesh) -> Result<Vec<Line>> {
-    let mut lines: Vec<Line> = mesh.boundary()?.into_iter().map(|edge| Line::new(body, mesh, edge)).collect();
+fn lines(body: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
+    let mut lines: Vec<BoundaryLine> =
+        mesh.boundary()?.into_iter().map(|edge| BoundaryLine::new(body, mesh, edge)).collect();
     let mut starting: HashMap<usize, usize> = HashMap::new();
     for (i, line) in lines.iter().enumerate() {
         starting.insert(line.edge.nodes[0], i);
@@ -178,12 +179,12 @@ fn lines(body: usize, mesh: &Mesh) -> Result<Vec<Line>> {
     Ok(lines)
 }
 
-impl Line {
-    fn new(body: usize, mesh: &Mesh, edge: Edge) -> Line {
+impl BoundaryLine {
+    fn new(body: usize, mesh: &Mesh, edge: Edge) -> BoundaryLine {
         let ends = [0, 1].map(|i| mesh.points[edge.nodes[i]]);
         let along = minus(ends[1], ends[0]);
         let length = along[0].hypot(along[1]);
-        Line { body, edge, ends, tangent: along.map(|x| x / length), length, reach: NEAR * length }
+        BoundaryLine { body, edge, ends, tangent: along.map(|x| x / length), length, reach: NEAR * length }
     }
 
     /// The box around it that its reach fills.
@@ -194,7 +195,7 @@ impl Line {
     }
 
     /// The part that another line shares.
-    fn share(&self, other: &Line) -> Option<Stretch> {
+    fn share(&self, other: &BoundaryLine) -> Option<Stretch> {
         if dot(self.tangent, other.tangent) > AGAINST {
             return None;
         }
@@ -213,7 +214,7 @@ impl Line {
             return None;
         }
         let together = TOGETHER * shorter + 16.0 * f64::EPSILON * size;
-        let node = |at: f64, own: f64, line: &Line, i: usize| {
+        let node = |at: f64, own: f64, line: &BoundaryLine, i: usize| {
             ((at - own).abs() <= together).then_some(line.edge.nodes[i])
         };
         let ends = [
@@ -232,15 +233,15 @@ impl Line {
 }
 
 /// Connects shared lengths that follow each other on both bodies, and sorts what comes out.
-fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
+fn gather(lines: &[BoundaryLine], shared: &[SharedLength]) -> Vec<Touch> {
     let pair = |i: usize| shared[i].lines.map(|line| lines[line].body);
     // every end under the node of either side that ends it: whatever follows ends there as well
-    let mut ends: Vec<End> = Vec::new();
+    let mut ends: Vec<LengthEnd> = Vec::new();
     for i in 0..shared.len() {
         for end in shared[i].part.ends {
             for side in 0..2 {
                 if let Some(node) = end[side] {
-                    ends.push(End { bodies: pair(i), side, node, shared: i, other: end[1 - side] });
+                    ends.push(LengthEnd { bodies: pair(i), side, node, shared: i, other: end[1 - side] });
                 }
             }
         }
@@ -250,7 +251,7 @@ fn gather(lines: &[Line], shared: &[Shared]) -> Vec<Touch> {
     for run in ends.chunk_by(|p, q| (p.bodies, p.side, p.node) == (q.bodies, q.side, q.node)) {
         for (k, one) in run.iter().enumerate() {
             for two in &run[k + 1..] {
-                let across = |end: &End| shared[end.shared].lines[1 - end.side];
+                let across = |end: &LengthEnd| shared[end.shared].lines[1 - end.side];
                 if across(one) == across(two) || one.other.is_some() && one.other == two.other {
                     let (p, q) = (find(&mut root, one.shared), find(&mut root, two.shared));
                     root[p.max(q)] = p.min(q);
@@ -299,7 +300,7 @@ fn middle<'a>(parts: impl Iterator<Item = &'a Stretch> + Clone) -> (f64, [f64; 2
 }
 
 /// The larger side of the box around all lines.
-fn extent(lines: &[Line]) -> f64 {
+fn extent(lines: &[BoundaryLine]) -> f64 {
     let range = |d: usize| {
         let values = lines.iter().flat_map(|line| line.ends).map(|p| p[d]);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))

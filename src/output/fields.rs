@@ -1,14 +1,14 @@
 //! Bodies and joints as VTU grids.
 
 use super::Snapshot;
-use super::vtu::{Array, Data, Grid};
+use super::vtu::{Array, Data, VtuGrid};
 use crate::assembly::{Body, Joint, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
 use crate::law;
 
 /// A body: displacement, stress at points and cells, principal stress.
-pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
+pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
     let body = &model.bodies[index];
     let u = &snapshot.u[model.dofs_of(index)];
     let stresses = &snapshot.stresses[index];
@@ -26,19 +26,19 @@ pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) 
     grid
 }
 
-pub(super) fn mesh(body: &Body) -> Grid {
+pub(super) fn mesh(body: &Body) -> VtuGrid {
     let cells = &body.mesh.cells;
-    Grid {
+    VtuGrid {
         points: body.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),
         connectivity: cells.nodes.iter().map(|&node| node as i64).collect(),
         offsets: cells.offsets[1..].iter().map(|&end| end as i64).collect(),
         types: cells.shapes.iter().map(|shape| shape.vtk()).collect(),
-        ..Grid::default()
+        ..VtuGrid::default()
     }
 }
 
 /// The law points of a joint in order along C, joined by lines.
-pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> Grid {
+pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
     let points = &joint.coupling.points;
     let n = points.len();
     // no line from one part of C to another that lies elsewhere
@@ -57,7 +57,7 @@ pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64)
         (1..n).filter(|&i| of(points[i - 1].s) == of(points[i].s)).map(|i| i as i64).collect();
     let none = vec![law::State::default(); n];
     let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
-    Grid {
+    VtuGrid {
         points: points.iter().flat_map(|p| [p.position[0], p.position[1], 0.0]).collect(),
         connectivity: lines.iter().flat_map(|&i| [i - 1, i]).collect(),
         offsets: (1..=lines.len() as i64).map(|i| 2 * i).collect(),
@@ -76,13 +76,13 @@ pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64)
             Array::float("normal", 3, points.iter().flat_map(|p| [p.rotation[0][0], p.rotation[0][1], 0.0])),
         ],
         time,
-        ..Grid::default()
+        ..VtuGrid::default()
     }
 }
 
 /// The geometry of a joint, to look at: segments (`kind` 0) and grid cells (`kind` 1) as lines on C, with their parent
 /// edges on both chains (−1 for grid cells) and the arc length at every point.
-pub(super) fn midplane(joint: &Joint) -> Grid {
+pub(super) fn midplane(joint: &Joint) -> VtuGrid {
     let midplane = &joint.coupling.midplane;
     let segments = midplane.segments.iter().map(|g| (g.start, g.end, 0, g.edge_a as i64, g.edge_b as i64));
     let cells = joint.coupling.grid.windows(2).filter(|pair| pair[1] > pair[0]);
@@ -90,7 +90,7 @@ pub(super) fn midplane(joint: &Joint) -> Grid {
     let lines: Vec<(f64, f64, i64, i64, i64)> = segments.chain(cells).collect();
     let ends: Vec<f64> = lines.iter().flat_map(|line| [line.0, line.1]).collect();
     let n = lines.len() as i64;
-    Grid {
+    VtuGrid {
         points: lines
             .iter()
             .flat_map(|line| {
@@ -108,6 +108,6 @@ pub(super) fn midplane(joint: &Joint) -> Grid {
             Array::int("edge_a", lines.iter().map(|line| line.3)),
             Array::int("edge_b", lines.iter().map(|line| line.4)),
         ],
-        ..Grid::default()
+        ..VtuGrid::default()
     }
 }

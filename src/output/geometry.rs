@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::earlier::remove_grids;
 use super::files::write_whole;
-use super::vtu::{Array, Grid};
+use super::vtu::{Array, VtuGrid};
 use crate::assembly::{Body, Joint, Model};
 use crate::error::Result;
 
 /// What a line or point of the file is.
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum GeometryKind {
     /// A segment of C.
     Segment = 0,
     /// A cell of the grid.
@@ -43,7 +43,7 @@ pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
     Ok(folder.to_path_buf())
 }
 
-fn quality(body: &Body) -> Grid {
+fn quality(body: &Body) -> VtuGrid {
     let mut grid = super::fields::mesh(body);
     grid.cell_data =
         vec![Array::float("quality", 1, (0..body.mesh.cells.len()).map(|c| body.mesh.quality(c)))];
@@ -53,14 +53,21 @@ fn quality(body: &Body) -> Grid {
 /// Lines and points with what they are.
 #[derive(Default)]
 struct Drawing {
-    grid: Grid,
+    grid: VtuGrid,
     normals: Vec<f64>,
     /// Kind, number and parent edges of every line and point.
     cells: [Vec<i64>; 4],
 }
 
 impl Drawing {
-    fn add(&mut self, kind: Kind, number: usize, parents: [i64; 2], points: &[[f64; 2]], normal: [f64; 2]) {
+    fn add(
+        &mut self,
+        kind: GeometryKind,
+        number: usize,
+        parents: [i64; 2],
+        points: &[[f64; 2]],
+        normal: [f64; 2],
+    ) {
         for p in points {
             self.grid.connectivity.push(self.grid.points.len() as i64 / 3);
             self.grid.points.extend([p[0], p[1], 0.0]);
@@ -74,10 +81,10 @@ impl Drawing {
     }
 }
 
-fn geometry(joint: &Joint) -> Grid {
+fn geometry(joint: &Joint) -> VtuGrid {
     let coupling = &joint.coupling;
     let mut drawing = Drawing::default();
-    for (side, kind) in [Kind::EdgeA, Kind::EdgeB].into_iter().enumerate() {
+    for (side, kind) in [GeometryKind::EdgeA, GeometryKind::EdgeB].into_iter().enumerate() {
         for e in 0..coupling.edges(side) {
             let mut parents = [-1; 2];
             parents[side] = e as i64;
@@ -86,9 +93,9 @@ fn geometry(joint: &Joint) -> Grid {
     }
     for (number, share) in coupling.shares().into_iter().enumerate() {
         let parents = share.edges.map(|e| e as i64);
-        drawing.add(Kind::Segment, number, parents, &share.places, [0.0; 2]);
+        drawing.add(GeometryKind::Segment, number, parents, &share.places, [0.0; 2]);
         for (end, place) in share.places.into_iter().enumerate() {
-            for (side, kind) in [Kind::FootA, Kind::FootB].into_iter().enumerate() {
+            for (side, kind) in [GeometryKind::FootA, GeometryKind::FootB].into_iter().enumerate() {
                 let line = coupling.line(side, share.edges[side]);
                 let foot = foot(&line, share.taken[side][end]);
                 drawing.add(kind, number, parents, &[place, foot], [0.0; 2]);
@@ -96,10 +103,10 @@ fn geometry(joint: &Joint) -> Grid {
         }
     }
     for (number, cell) in coupling.cells().into_iter().enumerate() {
-        drawing.add(Kind::GridCell, number, [-1; 2], &cell, [0.0; 2]);
+        drawing.add(GeometryKind::GridCell, number, [-1; 2], &cell, [0.0; 2]);
     }
     for (number, point) in coupling.points.iter().enumerate() {
-        drawing.add(Kind::LawPoint, number, [-1; 2], &[point.position], point.rotation[0]);
+        drawing.add(GeometryKind::LawPoint, number, [-1; 2], &[point.position], point.rotation[0]);
     }
     let Drawing { mut grid, normals, cells: [kind, number, edge_a, edge_b] } = drawing;
     grid.point_data = vec![Array::float("normal", 3, normals)];

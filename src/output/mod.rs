@@ -12,7 +12,7 @@ mod writer;
 
 pub use files::{write_json, write_whole};
 pub use geometry::write_geometry;
-pub use writer::{Row, Writer};
+pub use writer::{HistoryRow, Writer};
 
 use serde::{Deserialize, Serialize};
 

@@ -31,7 +31,7 @@ pub(super) struct Array {
 
 /// An unstructured grid.
 #[derive(Debug, Default)]
-pub(super) struct Grid {
+pub(super) struct VtuGrid {
     /// x, y, z of every point.
     pub points: Vec<f64>,
     /// Point numbers of all cells.
@@ -115,7 +115,7 @@ impl Draft {
     }
 }
 
-impl Grid {
+impl VtuGrid {
     /// The bytes of the file.
     pub(super) fn encode(self) -> Vec<u8> {
         let (n_points, n_cells) = (self.points.len() / 3, self.types.len());

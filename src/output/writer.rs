@@ -21,7 +21,7 @@ pub struct Writer {
 
 /// A row of history.csv.
 #[derive(Debug, Clone, Default)]
-pub struct Row {
+pub struct HistoryRow {
     /// Name of the step.
     pub step: String,
     /// Number of the increment over all steps, from 1.
@@ -83,8 +83,8 @@ impl Writer {
     }
 
     /// Adds a row to the history.
-    pub fn row(&mut self, row: &Row) -> Result<()> {
-        let Row { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
+    pub fn row(&mut self, row: &HistoryRow) -> Result<()> {
+        let HistoryRow { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
         let _ = write!(self.history, "{},{increment},{load_factor},{iterations},{residual:e}", quoted(step));
         for value in values {
             let _ = write!(self.history, ",{value:e}");

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use wildmatch::WildMatch;
 
-use super::curve::{Curve, Plan};
+use super::curve::{Curve, PlannedInterface};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::mesh::{Edge, Mesh, touching};
@@ -19,12 +19,12 @@ type OnSide = (usize, usize);
 
 /// What interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
 #[derive(Default)]
-pub(super) struct Taken {
+pub(super) struct JoinedEdges {
     edges: HashMap<(usize, [usize; 3]), Vec<OnSide>>,
     interfaces: usize,
 }
 
-impl Taken {
+impl JoinedEdges {
     /// Takes the sides of one interface.
     pub(super) fn add(&mut self, sides: &[Vec<Curve>; 2]) {
         for (side, curves) in sides.iter().enumerate() {
@@ -50,8 +50,8 @@ pub(super) fn pairs<'a>(
     model: &Model,
     (entry, interface): (&'a str, &'a Interface),
     patterns: &[String; 2],
-    taken: &Taken,
-) -> Result<Vec<Plan<'a>>> {
+    taken: &JoinedEdges,
+) -> Result<Vec<PlannedInterface<'a>>> {
     let fits: Vec<[bool; 2]> = scene.subdomains.keys().map(|name| fit(patterns, name)).collect();
     let bodies: Vec<usize> = (0..fits.len()).filter(|&body| fits[body] != [false; 2]).collect();
     let meshes: Vec<&Mesh> = bodies.iter().map(|&body| &model.bodies[body].mesh).collect();
@@ -79,7 +79,7 @@ pub(super) fn pairs<'a>(
                 let (body, edges) = (pair[i], touch.edges[i].clone());
                 vec![Curve { body, name: format!("{own} where it touches {other}"), edges }]
             };
-            plans.push(Plan { name, entry, interface, sides: [side(0, a, b), side(1, b, a)] });
+            plans.push(PlannedInterface { name, entry, interface, sides: [side(0, a, b), side(1, b, a)] });
         }
     }
     Ok(plans)

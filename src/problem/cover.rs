@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::curve::Plan;
+use super::curve::PlannedInterface;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
 use crate::scene::Scene;
@@ -13,17 +13,17 @@ const MEETING: f64 = 1e-2;
 const WHOLE: f64 = 1e-9;
 
 /// An edge, from its smaller to its larger node of the model.
-type Key = [usize; 2];
+type EdgeKey = [usize; 2];
 
 /// What an interface takes of an edge.
-struct Taken {
+struct EdgeShare {
     joint: usize,
     from: f64,
     to: f64,
 }
 
 /// Refuses a place that two interfaces join; warns of sides, named by the scene, that are joined in part.
-pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec<Warning>> {
+pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -> Result<Vec<Warning>> {
     let edges = taken(model);
     for (nodes, of_edge) in &edges {
         let twice = of_edge
@@ -68,15 +68,15 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[Plan]) -> Result<Vec
 }
 
 /// What the joints take of every edge, in order along it.
-fn taken(model: &Model) -> BTreeMap<Key, Vec<Taken>> {
-    let mut edges: BTreeMap<Key, Vec<Taken>> = BTreeMap::new();
+fn taken(model: &Model) -> BTreeMap<EdgeKey, Vec<EdgeShare>> {
+    let mut edges: BTreeMap<EdgeKey, Vec<EdgeShare>> = BTreeMap::new();
     for (joint, of_model) in model.joints.iter().enumerate() {
         for share in of_model.coupling.shares() {
             for side in 0..2 {
                 let nodes = of_model.coupling.nodes(side, share.edges[side]);
                 let [start, end] = share.taken[side];
                 let (from, to) = if nodes[0] < nodes[1] { (start, end) } else { (1.0 - end, 1.0 - start) };
-                edges.entry(ordered(nodes)).or_default().push(Taken { joint, from, to });
+                edges.entry(ordered(nodes)).or_default().push(EdgeShare { joint, from, to });
             }
         }
     }

@@ -4,13 +4,13 @@ use std::collections::HashMap;
 
 use super::groups;
 use crate::assembly::{Joint, Model};
-use crate::coupling::{Coupling, Gap, Kind, Points, Scheme, Side};
+use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use crate::error::Result;
 use crate::mesh::Edge;
 use crate::scene::{CouplingKind, Grid, Interface, OneOrMany, Quadrature, Scene};
 
 /// An interface to be.
-pub(super) struct Plan<'a> {
+pub(super) struct PlannedInterface<'a> {
     /// Its name in results and probes.
     pub name: String,
     /// Its key in the scene's `interfaces`.
@@ -56,7 +56,7 @@ pub(super) fn side(
     Ok(curves)
 }
 
-impl Plan<'_> {
+impl PlannedInterface<'_> {
     /// Builds the joint.
     pub(super) fn join(&self, model: &Model) -> Result<Joint> {
         let sides: [Vec<Side>; 2] = [0, 1].map(|i| {
@@ -69,10 +69,10 @@ impl Plan<'_> {
         });
         let quadrilaterals = || self.sides.iter().flatten().all(|curve| on_quadrilaterals(model, curve));
         let kind = match (self.interface.coupling, self.interface.grid) {
-            (CouplingKind::Pointwise, _) => Kind::Pointwise,
-            (_, Grid::Quadratic) => Kind::Projected,
-            (_, Grid::Auto) if quadrilaterals() => Kind::Projected,
-            (_, Grid::Auto | Grid::Linear) => Kind::ProjectedLinear,
+            (CouplingKind::Pointwise, _) => JumpScheme::Pointwise,
+            (_, Grid::Quadratic) => JumpScheme::Projected,
+            (_, Grid::Auto) if quadrilaterals() => JumpScheme::Projected,
+            (_, Grid::Auto | Grid::Linear) => JumpScheme::ProjectedLinear,
         };
         let points = match self.interface.quadrature {
             Quadrature::Gauss => Points::Gauss,

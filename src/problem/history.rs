@@ -7,7 +7,7 @@ use indexmap::IndexMap;
 
 use super::load::BoundLoad;
 use super::quantity::Quantity;
-use super::stage::{Moving, Stage};
+use super::stage::{BoundStep, Moving};
 use super::{along, groups};
 use crate::assembly::Model;
 use crate::error::Result;
@@ -47,7 +47,7 @@ struct Supports {
 }
 
 /// Binds all steps.
-pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Reaction>)> {
+pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec<Reaction>)> {
     let n = model.dofs();
     let mut supports = Supports { held: vec![false; n], target: vec![0.0; n], kept: vec![false; n] };
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
@@ -79,7 +79,7 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<Stage>, Vec<Re
         for load in changing.values() {
             load.add(model, 1.0, &mut force)?;
         }
-        let stage = Stage {
+        let stage = BoundStep {
             name: step.name.clone(),
             increments: step.increments,
             control: step.control,

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::curve::Plan;
+use super::curve::PlannedInterface;
 use super::history::given;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
@@ -42,7 +42,7 @@ pub(super) fn loads(scene: &Scene, model: &Model) -> Result<Vec<Warning>> {
 }
 
 /// Warnings of keys that the scene cannot use.
-pub(super) fn keys(scene: &Scene, plans: &[Plan]) -> Vec<Warning> {
+pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
     let mut told: Vec<(Vec<String>, String, &str)> = Vec::new();
     let mut tell = |path: &[&str], why: String, help| {
         told.push((path.iter().map(|part| part.to_string()).collect(), why, help));
@@ -52,7 +52,7 @@ pub(super) fn keys(scene: &Scene, plans: &[Plan]) -> Vec<Warning> {
         let mut own = plans.iter().filter(|plan| plan.entry == name).peekable();
         let quadratic_grid = interface.grid == Grid::Quadratic && own.peek().is_some();
         let has_linear =
-            |plan: &Plan| plan.sides.iter().flatten().any(|curve| curve.edges.iter().any(linear));
+            |plan: &PlannedInterface| plan.sides.iter().flatten().any(|curve| curve.edges.iter().any(linear));
         if quadratic_grid && own.all(has_linear) {
             let help = "mesh both sides with Mesh.ElementOrder = 2, or leave the key out";
             tell(

@@ -11,14 +11,14 @@ use crate::scene::{Load, Place, Scene, Value, Variable};
 /// A load in force.
 #[derive(Debug, Clone)]
 pub(super) struct BoundLoad {
-    target: Target,
+    target: LoadTarget,
     /// Components x, y; a pressure is the first.
     values: [Quantity; 2],
 }
 
 /// What a load acts on.
 #[derive(Debug, Clone)]
-enum Target {
+enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
     Edges { body: usize, edges: Vec<Edge>, s: Option<Vec<[f64; 2]>>, pressure: bool },
     /// Points of a body.
@@ -48,7 +48,7 @@ impl BoundLoad {
             Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
             Load::Force(values) => {
                 let (body, points) = groups::points(scene, model, &path, name)?;
-                let target = Target::Points { body, points: points.to_vec() };
+                let target = LoadTarget::Points { body, points: points.to_vec() };
                 return Ok(BoundLoad { target, values: both("force", values) });
             }
         };
@@ -65,7 +65,7 @@ impl BoundLoad {
             }
             None => None,
         };
-        Ok(BoundLoad { target: Target::Edges { body, edges: edges.to_vec(), s, pressure }, values })
+        Ok(BoundLoad { target: LoadTarget::Edges { body, edges: edges.to_vec(), s, pressure }, values })
     }
 
     /// Binds a force per volume (times a factor) on a body; `path` is the key of its two components.
@@ -81,7 +81,7 @@ impl BoundLoad {
         let values = [quantity("0", x), quantity("1", y)];
         match values.iter().find(|value| value.uses(Variable::S)) {
             Some(value) => Err(value.refuse_s("a body has no such coordinate")),
-            None => Ok(BoundLoad { target: Target::Body { body, factor }, values }),
+            None => Ok(BoundLoad { target: LoadTarget::Body { body, factor }, values }),
         }
     }
 
@@ -93,7 +93,7 @@ impl BoundLoad {
     /// True if it has no nodal force at any of the load levels of a step.
     pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
         let both = self.values.each_ref().map(Quantity::constant);
-        if let Target::Body { factor: 0.0, .. } = self.target {
+        if let LoadTarget::Body { factor: 0.0, .. } = self.target {
             return Ok(true);
         }
         if let [Some(x), Some(y)] = both {
@@ -127,7 +127,7 @@ impl BoundLoad {
             }
         };
         match &self.target {
-            Target::Edges { body, edges, s, pressure } => {
+            LoadTarget::Edges { body, edges, s, pressure } => {
                 let body = &model.bodies[*body];
                 let split = |v: [f64; 2]| if *pressure { ([0.0; 2], v[0]) } else { (v, 0.0) };
                 for (e, edge) in edges.iter().enumerate() {
@@ -149,13 +149,13 @@ impl BoundLoad {
                     }
                 }
             }
-            Target::Points { body, points } => {
+            LoadTarget::Points { body, points } => {
                 let body = &model.bodies[*body];
                 for &point in points {
                     scatter(body.first_node + point, at(body.mesh.points[point], 0.0)?);
                 }
             }
-            Target::Body { body, factor } => {
+            LoadTarget::Body { body, factor } => {
                 let (body, mesh) = (&model.bodies[*body], &model.bodies[*body].mesh);
                 let factor = factor * model.thickness;
                 if constant == Some([0.0; 2]) || factor == 0.0 {

@@ -28,15 +28,15 @@ pub use initial::InitialTraction;
 pub use parts::subdomain_meshes;
 pub use probes::{BoundProbe, ProbeInput};
 pub use rigid::is_held;
-pub use stage::Stage;
+pub use stage::BoundStep;
 pub use stiffness::stiffness_number;
 pub use survey::Survey;
 pub use unused::unused_groups;
 
 use crate::assembly::{Body, Joint, Model};
-use crate::continuum::{Elasticity, Plane};
+use crate::continuum::{Elasticity, PlaneState};
 use crate::error::{Result, Warning};
-use crate::law::{self, Law, Stepping};
+use crate::law::{self, Integration, Law};
 use crate::mesh::Mesh;
 use crate::scene::{self, Scene};
 
@@ -50,11 +50,11 @@ pub struct Problem {
     /// States of the law points before the first increment; empty for an elastic joint, which has no history.
     pub states: Vec<Vec<law::State>>,
     /// How the laws' integration is controlled, joint by joint.
-    pub stepping: Vec<Stepping>,
+    pub stepping: Vec<Integration>,
     /// How equilibrium is found where a joint is not elastic.
     pub solution: scene::Solution,
     /// Supports and loads step by step.
-    pub stages: Vec<Stage>,
+    pub stages: Vec<BoundStep>,
     /// Which increments store their fields.
     pub fields: scene::Fields,
     /// Columns of the history: name and probe.
@@ -100,7 +100,7 @@ impl Problem {
             let gaps = Gaps::new(interface.initial_gap, &joint);
             let initial = InitialTraction::bind(scene, plan.entry, interface, &joint)?;
             states.push(initial::states(scene, plan.entry, &interface.law, &initial, &gaps, &joint)?);
-            stepping.push(Stepping::Tolerance(interface.law_tolerance));
+            stepping.push(Integration::Tolerance(interface.law_tolerance));
             laws.push((interface.law, initial));
             model.joints.push(joint);
         }
@@ -136,8 +136,8 @@ impl Problem {
 
 fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
     let plane = match scene.plane {
-        scene::Plane::Strain => Plane::Strain,
-        scene::Plane::Stress => Plane::Stress,
+        scene::Plane::Strain => PlaneState::Strain,
+        scene::Plane::Stress => PlaneState::Stress,
     };
     let mut first_node = 0;
     let bodies = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {

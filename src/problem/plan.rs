@@ -3,21 +3,21 @@
 use std::collections::HashMap;
 
 use super::between;
-use super::curve::{Plan, side};
+use super::curve::{PlannedInterface, side};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::Scene;
 
 /// All interfaces in the order of the scene; those of one `between` in the order of the subdomains.
-pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<Plan<'a>>> {
-    let mut named: HashMap<&str, Plan> = HashMap::new();
+pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<PlannedInterface<'a>>> {
+    let mut named: HashMap<&str, PlannedInterface> = HashMap::new();
     for (entry, interface) in &scene.interfaces {
         if let Some([a, b]) = interface.sides() {
             let sides = [side(scene, model, entry, "side_a", a)?, side(scene, model, entry, "side_b", b)?];
-            named.insert(entry, Plan { name: entry.clone(), entry, interface, sides });
+            named.insert(entry, PlannedInterface { name: entry.clone(), entry, interface, sides });
         }
     }
-    let mut taken = between::Taken::default();
+    let mut taken = between::JoinedEdges::default();
     named.values().for_each(|plan| taken.add(&plan.sides));
     let mut plans = Vec::new();
     for (entry, interface) in &scene.interfaces {

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::stiffness::compliance;
 use super::unjoined::Connectivity;
-use super::{InitialTraction, Stage};
+use super::{BoundStep, InitialTraction};
 use crate::assembly::Model;
 use crate::error::{Code, Error, Result, Warning};
 use crate::law::Law;
@@ -21,7 +21,7 @@ const FREE: f64 = 1e-12;
 const HARDLY: f64 = 1e-6;
 
 /// A piece of a body.
-struct Part {
+struct RigidPiece {
     body: usize,
     nodes: Vec<usize>, // of the model
     centre: [f64; 2],
@@ -52,10 +52,10 @@ pub(super) fn refuse_free_bodies(
     model: &Model,
     connectivity: &[Connectivity],
     laws: &[(Law, InitialTraction)],
-    stage: &Stage,
+    stage: &BoundStep,
 ) -> Result<Option<Warning>> {
     let (parts, part_of, hinges) = parts(model, connectivity);
-    let motion = |part: &Part, mode: usize, node: usize| -> [f64; 2] {
+    let motion = |part: &RigidPiece, mode: usize, node: usize| -> [f64; 2] {
         let body = &model.bodies[part.body];
         let x = body.mesh.points[node - body.first_node];
         match mode {
@@ -171,7 +171,7 @@ pub(super) fn refuse_free_bodies(
 fn free(
     model: &Model,
     connectivity: &[Connectivity],
-    parts: &[Part],
+    parts: &[RigidPiece],
     moving: &[usize],
     mode: String,
 ) -> Error {
@@ -184,10 +184,10 @@ fn free(
 }
 
 /// The bodies of some parts, the first before the others; a piece by its place.
-fn named(model: &Model, connectivity: &[Connectivity], parts: &[Part], moving: &[usize]) -> String {
+fn named(model: &Model, connectivity: &[Connectivity], parts: &[RigidPiece], moving: &[usize]) -> String {
     let mut names: Vec<&str> = moving.iter().map(|&p| model.bodies[parts[p].body].name.as_str()).collect();
     names.dedup();
-    let Part { body, centre: [x, y], .. } = &parts[moving[0]];
+    let RigidPiece { body, centre: [x, y], .. } = &parts[moving[0]];
     let piece = if connectivity[*body].pieces.count > 1 {
         format!("the piece around ({x:.4}, {y:.4}) of ")
     } else {
@@ -204,13 +204,13 @@ fn named(model: &Model, connectivity: &[Connectivity], parts: &[Part], moving: &
 type Hinge = (usize, usize, usize);
 
 /// The pieces of all bodies, a piece of every node, and the nodes that hold pieces together.
-fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<Part>, Vec<usize>, Vec<Hinge>) {
-    let mut parts: Vec<Part> = Vec::new();
+fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<RigidPiece>, Vec<usize>, Vec<Hinge>) {
+    let mut parts: Vec<RigidPiece> = Vec::new();
     let mut part_of = vec![usize::MAX; model.nodes()];
     let mut hinges = Vec::new();
     for (b, (body, Connectivity { pieces, .. })) in model.bodies.iter().zip(connectivity).enumerate() {
         let first = parts.len();
-        parts.extend((0..pieces.count).map(|_| Part {
+        parts.extend((0..pieces.count).map(|_| RigidPiece {
             body: b,
             nodes: Vec::new(),
             centre: [0.0; 2],

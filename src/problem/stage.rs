@@ -14,7 +14,7 @@ use crate::scene::{Control, Place};
 
 /// One step, bound.
 #[derive(Debug, Clone)]
-pub struct Stage {
+pub struct BoundStep {
     /// Name of the step.
     pub name: String,
     /// Number of increments.
@@ -54,7 +54,7 @@ impl Moving {
     }
 }
 
-impl Stage {
+impl BoundStep {
     /// External forces at a load level [force].
     pub fn force(&self, model: &Model, load_factor: f64) -> Result<Vec<f64>> {
         let mut force = self.ramped(load_factor);

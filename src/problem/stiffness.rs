@@ -1,6 +1,6 @@
 //! The stiffness number K_N h/E of a joint: what its springs are against the continuum beside them.
 
-use super::curve::Plan;
+use super::curve::PlannedInterface;
 use crate::assembly::{Joint, Model};
 use crate::error::Result;
 use crate::law::Law;
@@ -54,7 +54,7 @@ pub(super) fn refuse_beyond_precision(
     scene: &Scene,
     model: &Model,
     joint: &Joint,
-    plan: &Plan,
+    plan: &PlannedInterface,
 ) -> Result<()> {
     let law = &plan.interface.law;
     let number = stiffness_number(model, joint, law);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::between::Taken;
-use super::curve::Plan;
+use super::between::JoinedEdges;
+use super::curve::PlannedInterface;
 use crate::assembly::{Body, Model};
 use crate::error::{Code, Result, Warning};
 use crate::mesh::{Edge, Mesh, Pieces, Touch, coinciding};
@@ -23,23 +23,23 @@ pub(super) struct Connectivity {
     /// Its pieces.
     pub(super) pieces: Pieces,
     /// Length and middle of the lines along which different pieces lie on each other.
-    lines: Option<Line>,
+    lines: Option<ContactLine>,
 }
 
 /// Length and middle of lines of contact.
-type Line = (f64, [f64; 2]);
+type ContactLine = (f64, [f64; 2]);
 
 /// Connectivity of every subdomain; warnings of boundaries that lie on each other and that nothing joins.
-pub(super) fn look(model: &Model, plans: &[Plan]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
+pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
     let pieces: Vec<Result<Pieces>> = model.bodies.par_iter().map(|body| body.mesh.pieces()).collect();
     let pieces = pieces.into_iter().collect::<Result<Vec<Pieces>>>()?;
-    let mut taken = Taken::default();
+    let mut taken = JoinedEdges::default();
     plans.iter().for_each(|plan| taken.add(&plan.sides));
     let meshes: Vec<&Mesh> = model.bodies.iter().map(|body| &body.mesh).collect();
     let free = |bodies: [usize; 2], edges: [&Edge; 2]| !taken.both(bodies, edges);
     let touches = coinciding(&meshes, &free)?;
-    let mut apart: BTreeMap<[usize; 2], Line> = BTreeMap::new();
-    let mut within: BTreeMap<(usize, bool), Line> = BTreeMap::new();
+    let mut apart: BTreeMap<[usize; 2], ContactLine> = BTreeMap::new();
+    let mut within: BTreeMap<(usize, bool), ContactLine> = BTreeMap::new();
     for touch in touches.iter().filter(|touch| is_line(model, touch)) {
         let [a, b] = touch.bodies;
         if a == b {
@@ -113,7 +113,7 @@ impl Connectivity {
 }
 
 /// "lie on each other along 2 near (1, 0.5)".
-fn on_each_other(body: &Body, (length, middle): &Line) -> String {
+fn on_each_other(body: &Body, (length, middle): &ContactLine) -> String {
     format!("lie on each other along {} near {}", short(body, *length), near(body, *middle))
 }
 
@@ -129,7 +129,7 @@ fn is_line(model: &Model, touch: &Touch) -> bool {
 }
 
 /// Adds a line; the middle is that of the longest.
-fn add((length, middle): &mut Line, touch: &Touch) {
+fn add((length, middle): &mut ContactLine, touch: &Touch) {
     if touch.length > *length {
         *middle = touch.middle;
     }

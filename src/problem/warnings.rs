@@ -1,6 +1,6 @@
 //! What the user should know of a joint before believing the result.
 
-use super::curve::Plan;
+use super::curve::PlannedInterface;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
 use crate::assembly::{Body, Joint, Model};
 use crate::error::{Code, Warning};
@@ -16,7 +16,7 @@ const BAD: f64 = 0.3;
 const LOCKING: f64 = 0.49;
 
 /// The warnings of one joint.
-pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &Plan) -> Vec<Warning> {
+pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &PlannedInterface) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (name, law) = (&joint.name, &plan.interface.law);
     let coupling = &joint.coupling;

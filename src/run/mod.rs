@@ -18,8 +18,8 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::error::{Error, Result, Warning};
-use crate::history::{Clock, Equations, History, Means, StageNow, State, Totals, memory};
-use crate::output::Row;
+use crate::history::{Clock, Equations, History, Means, ModelState, StageNow, Totals, memory};
+use crate::output::HistoryRow;
 use crate::problem::Problem;
 use crate::scene::Fields;
 
@@ -67,7 +67,7 @@ pub enum Event<'a> {
     /// An increment is done.
     Increment {
         /// Its row of the history.
-        row: &'a Row,
+        row: &'a HistoryRow,
         /// Its number within its step.
         number: usize,
         /// Increments of its step.
@@ -79,7 +79,7 @@ pub enum Event<'a> {
         /// The scene bound to its meshes.
         problem: &'a Problem,
         /// The model after the increment.
-        state: &'a State,
+        state: &'a ModelState,
     },
     /// Something another run had left was used, such as "factor of lower".
     Reused(&'a str),
@@ -90,7 +90,7 @@ pub type Listener<'a> = &'a mut dyn FnMut(Event);
 
 /// What a run leaves behind.
 #[derive(Debug)]
-pub struct Done {
+pub struct RunDone {
     /// The results folder.
     pub folder: PathBuf,
     /// The collection to open, or the folder if no fields are written.
@@ -104,12 +104,12 @@ pub struct Done {
 }
 
 /// Runs a scene: prepares, solves, writes.
-pub fn run(options: &Options, listen: Listener) -> Result<Done> {
+pub fn run(options: &Options, listen: Listener) -> Result<RunDone> {
     run_sharing(options, None, listen)
 }
 
 /// `run` with what other runs of this process have left, and leaving them what they can use.
-pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Done> {
+pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<RunDone> {
     let Prepared { scene, name, problem, folder, mut clock } =
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
@@ -138,7 +138,7 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
         _ => path.join(format!("{name}.pvd")),
     };
     let (clock, totals) = (history.clock().clone(), results.totals);
-    Ok(Done { folder: path, collection, clock, totals, peak_memory: memory::peak() })
+    Ok(RunDone { folder: path, collection, clock, totals, peak_memory: memory::peak() })
 }
 
 /// Goes through the history, writes every increment and tells of it.

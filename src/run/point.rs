@@ -5,12 +5,12 @@ use std::path::Path;
 use nalgebra::Vector2;
 
 use crate::error::{At, Error, Result, name_cure};
-use crate::law::path::{self, PathError, Row};
-use crate::law::{Law, State, Stepping};
+use crate::law::path::{self, PathError, PathRow};
+use crate::law::{Integration, Law, State};
 use crate::scene;
 
 /// Rows of a path, and the error that ended it early, if one did.
-pub type Driven = (Vec<Row>, Option<Error>);
+pub type Driven = (Vec<PathRow>, Option<Error>);
 
 /// Drives the law of `interface` along the program in `path`; without `stepping` the scene's `law_tolerance` rules.
 pub fn drive(
@@ -18,7 +18,7 @@ pub fn drive(
     settings: &[String],
     interface: &str,
     path: &Path,
-    stepping: Option<Stepping>,
+    stepping: Option<Integration>,
 ) -> Result<Driven> {
     let scene = scene::read(scene, settings)?;
     let Some(joint) = scene.interfaces.get(interface) else {
@@ -34,9 +34,9 @@ pub fn drive(
     }
     let start = start(&joint.law, initial)
         .map_err(|law| scene.source.refuse(&["interfaces", interface, law.key], law.what, law.cure))?;
-    let stepping = stepping.unwrap_or(Stepping::Tolerance(joint.law_tolerance));
+    let stepping = stepping.unwrap_or(Integration::Tolerance(joint.law_tolerance));
     let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
-    let program: path::Path = serde_json::from_str(&text).map_err(|error| {
+    let program: path::LawPath = serde_json::from_str(&text).map_err(|error| {
         let message = error.to_string();
         let what = message.split(" at line ").next().unwrap_or(&message);
         let cure = "a path holds \"program\": segments with \"n\", \"t\" and \"points\"";

@@ -3,8 +3,8 @@
 use super::folder::Folder;
 use super::summary::{self, Balance};
 use crate::error::{Error, Result};
-use crate::history::{Clock, Increment, State, Totals};
-use crate::output::{Row, Writer};
+use crate::history::{Clock, Increment, ModelState, Totals};
+use crate::output::{HistoryRow, Writer};
 use crate::problem::Problem;
 use crate::scene::{Fields, Scene};
 
@@ -34,9 +34,9 @@ impl<'a> Results<'a> {
     pub(super) fn write(
         &mut self,
         increment: &Increment,
-        state: &State,
+        state: &ModelState,
         totals: &Totals,
-    ) -> Result<Option<Row>> {
+    ) -> Result<Option<HistoryRow>> {
         let (problem, fields) = (self.problem, self.scene.output.fields);
         if increment.number == 0 {
             return self.open(state).map(|()| None);
@@ -60,7 +60,7 @@ impl<'a> Results<'a> {
         if increment.ended {
             return Ok(None); // its row is written
         }
-        let row = Row {
+        let row = HistoryRow {
             step: increment.stage.name.clone(),
             increment: increment.increment,
             load_factor: increment.load_factor,
@@ -74,7 +74,7 @@ impl<'a> Results<'a> {
     }
 
     /// The first factor stands: a run that is refused before leaves the last results in place.
-    fn open(&mut self, state: &State) -> Result<()> {
+    fn open(&mut self, state: &ModelState) -> Result<()> {
         self.folder.keep();
         let model = &self.problem.model;
         let mut writer = Writer::create(self.folder.path(), self.name, &self.problem.columns())?;

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::history::memory;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::scene::Scene;
-use crate::solver::Shelf;
+use crate::solver::SubdomainCache;
 
 /// Memory for condensed bodies where the system does not tell what it has [bytes].
 const ROOM: u64 = 1 << 30;
@@ -27,7 +27,7 @@ pub struct Shared {
     meshes: Mutex<HashMap<PathBuf, Arc<Mesh>>>,
     joints: Mutex<HashMap<String, Arc<Vec<Joint>>>>,
     /// Condensed bodies.
-    pub(super) shelf: Arc<Shelf>,
+    pub(super) shelf: Arc<SubdomainCache>,
 }
 
 impl Shared {
@@ -40,7 +40,7 @@ impl Shared {
             meshing: Mutex::default(),
             meshes: Mutex::default(),
             joints: Mutex::default(),
-            shelf: Arc::new(Shelf::new(room)),
+            shelf: Arc::new(SubdomainCache::new(room)),
         }
     }
 

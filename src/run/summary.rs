@@ -18,7 +18,7 @@ pub(super) struct Summary<'a> {
     scene: &'a str,
     title: &'a str,
     sizes: Sizes<'a>,
-    solution: Solution,
+    solution: SolutionSummary,
     /// Why the run ended before its last increment; null if it did not.
     stopped: Option<String>,
     equilibrium: Balance,
@@ -56,7 +56,7 @@ struct InterfaceSize {
 }
 
 #[derive(Debug, Serialize)]
-struct Solution {
+struct SolutionSummary {
     increments: usize,
     iterations: usize,
     /// Parts in which the increments were found.
@@ -86,16 +86,16 @@ struct Solution {
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Balance {
     #[serde(flatten)]
-    whole: Forces,
+    whole: Resultants,
     /// |load + reaction| over the sum of all nodal loads and reactions, by magnitude.
     imbalance: f64,
     /// The same by subdomain; what is left there crosses its joints.
-    subdomains: IndexMap<String, Forces>,
+    subdomains: IndexMap<String, Resultants>,
 }
 
 /// Resultants in x and y [force], and their moments about the origin.
 #[derive(Debug, Clone, Copy, Serialize)]
-struct Forces {
+struct Resultants {
     load: [f64; 2],
     reaction: [f64; 2],
     /// Moment of loads, and of reactions [force × length].
@@ -105,7 +105,7 @@ struct Forces {
 /// Sums loads and reactions.
 pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
     let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
-    let forces: Vec<(String, Forces)> = (model.bodies.iter().enumerate())
+    let forces: Vec<(String, Resultants)> = (model.bodies.iter().enumerate())
         .map(|(b, body)| {
             let dofs = model.dofs_of(b);
             let (force, reactions) = (&force[dofs.clone()], &reactions[dofs]);
@@ -114,11 +114,11 @@ pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balanc
                 body.mesh.points.iter().zip(values.chunks_exact(model.components)).map(of).sum::<f64>()
             };
             let moment = [moment(force), moment(reactions)];
-            (body.name.clone(), Forces { load: sum(force), reaction: sum(reactions), moment })
+            (body.name.clone(), Resultants { load: sum(force), reaction: sum(reactions), moment })
         })
         .collect();
     let moments = [0, 1].map(|k| forces.iter().map(|(_, own)| own.moment[k]).sum());
-    let whole = Forces { load: sum(force), reaction: sum(reactions), moment: moments };
+    let whole = Resultants { load: sum(force), reaction: sum(reactions), moment: moments };
     let Resultant { rest, scale } = resultant(model, force, reactions);
     let imbalance = if scale > 0.0 { rest / scale } else { 0.0 };
     Balance { whole, imbalance, subdomains: forces.into_iter().collect() }
@@ -170,7 +170,7 @@ pub(super) fn summary<'a>(
             subdomains: subdomains.collect(),
             interfaces: interfaces.collect(),
         },
-        solution: Solution {
+        solution: SolutionSummary {
             increments: totals.increments,
             iterations: totals.iterations,
             parts: totals.parts,

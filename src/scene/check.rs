@@ -1,5 +1,6 @@
 //! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
 
+use super::named::{check_group, check_name};
 use super::{Load, Plane, Scene, Step, Subdomain, split_group};
 use crate::error::{Result, name_cure};
 use crate::scene::probe::Probe;
@@ -85,7 +86,7 @@ impl Scene {
         }
         for (name, subdomain) in &self.subdomains {
             let path = ["subdomains", name.as_str()];
-            self.check_name(&path, name)?;
+            check_name(self, &path, name)?;
             match (&subdomain.geo, &subdomain.msh) {
                 (None, None) => {
                     return Err(self.source.refuse(&path, "neither \"geo\" nor \"msh\"", "give one of them"));
@@ -147,7 +148,7 @@ impl Scene {
             ("body_force", step.body_force.keys().collect()),
         ] {
             for group in groups {
-                self.check_group(&["steps", index, key, group], group)?;
+                check_group(self, &["steps", index, key, group], group)?;
             }
         }
         self.check_gravity(index, step)?;
@@ -204,25 +205,5 @@ impl Scene {
         let what = format!("gravity acts on no density: {} {verb} 0", keys.join(" and "));
         let help = "give a material of a subdomain a density, or take a \"body_force\"";
         Err(self.source.refuse(&["steps", index, "gravity"], what, help))
-    }
-
-    /// A name that becomes a file name: letters, digits, `_` and `-`.
-    pub(super) fn check_name(&self, path: &[&str], name: &str) -> Result<()> {
-        let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
-        if good && !name.starts_with('-') {
-            return Ok(());
-        }
-        let what = format!("\"{name}\" cannot name a file");
-        Err(self.source.refuse(path, what, "use letters, digits, _ and -"))
-    }
-
-    /// The subdomain of a group must exist; whether it has that group is known when its mesh is.
-    pub(super) fn check_group(&self, path: &[&str], group: &str) -> Result<()> {
-        let subdomain = split_group(group).0;
-        if self.subdomains.contains_key(subdomain) {
-            return Ok(());
-        }
-        let cure = name_cure(subdomain, self.subdomains.keys().map(String::as_str));
-        Err(self.source.refuse(path, format!("no subdomain \"{subdomain}\""), cure))
     }
 }

@@ -4,7 +4,7 @@
 //! Names are `x`, `y` (place), `s` (0…1 along the group), `load_factor` (0…1 within the step), `pi`, `e`, and functions.
 
 use super::grammar;
-pub use super::op::{Fault, Place, Variable};
+pub use super::op::{FormulaFault, Place, Variable};
 use super::op::{Op, STACK, evaluate};
 
 /// A compiled formula.
@@ -16,9 +16,9 @@ pub struct Expression {
 
 impl Expression {
     /// Compiles a text.
-    pub fn parse(text: &str) -> Result<Expression, Fault> {
+    pub fn parse(text: &str) -> Result<Expression, FormulaFault> {
         let code = grammar::compile(text)?;
-        let whole = |what: String, cure: &str| Fault { span: 0..text.len(), what, cure: cure.into() };
+        let whole = |what: String, cure: &str| FormulaFault { span: 0..text.len(), what, cure: cure.into() };
         let (mut height, mut highest) = (0, 0);
         for op in &code {
             height = height + 1 - op.takes();

@@ -10,7 +10,7 @@
 //! ```
 
 use super::functions::{COMPARISONS, FUNCTIONS};
-use super::op::{Fault, Op, Place, Variable, evaluate};
+use super::op::{FormulaFault, Op, Place, Variable, evaluate};
 use crate::error::name_cure;
 
 /// Longest formula [bytes].
@@ -21,7 +21,7 @@ const DEEPEST: usize = 64;
 const AROUND: usize = 30;
 
 /// Compiles a text.
-pub(super) fn compile(text: &str) -> Result<Vec<Op>, Fault> {
+pub(super) fn compile(text: &str) -> Result<Vec<Op>, FormulaFault> {
     let mut parser = Parser { text, at: 0, code: Vec::new(), depth: 0 };
     if text.len() > LONGEST {
         return Err(parser.fault(0..0, "a formula of more than 10000 characters", "write it shorter"));
@@ -70,7 +70,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn comparison(&mut self) -> Result<(), Fault> {
+    fn comparison(&mut self) -> Result<(), FormulaFault> {
         self.sum()?;
         for (symbol, compare) in COMPARISONS {
             if self.take(symbol) {
@@ -82,7 +82,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn sum(&mut self) -> Result<(), Fault> {
+    fn sum(&mut self) -> Result<(), FormulaFault> {
         self.product()?;
         loop {
             let op = match self.peek() {
@@ -96,7 +96,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn product(&mut self) -> Result<(), Fault> {
+    fn product(&mut self) -> Result<(), FormulaFault> {
         self.signed()?;
         loop {
             let op = match self.peek() {
@@ -110,7 +110,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn signed(&mut self) -> Result<(), Fault> {
+    fn signed(&mut self) -> Result<(), FormulaFault> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(self.fault_here("nested too deep", "nest at most 64 brackets, functions and powers"));
@@ -128,7 +128,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn power(&mut self) -> Result<(), Fault> {
+    fn power(&mut self) -> Result<(), FormulaFault> {
         self.value()?;
         if self.take("^") {
             self.signed()?;
@@ -149,7 +149,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn value(&mut self) -> Result<(), Fault> {
+    fn value(&mut self) -> Result<(), FormulaFault> {
         match self.peek() {
             Some('(') => {
                 let open = self.at;
@@ -165,7 +165,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn number(&mut self) -> Result<(), Fault> {
+    fn number(&mut self) -> Result<(), FormulaFault> {
         let bytes = self.text.as_bytes();
         let digits = |mut at: usize| {
             while bytes.get(at).is_some_and(u8::is_ascii_digit) {
@@ -195,7 +195,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn name(&mut self) -> Result<(), Fault> {
+    fn name(&mut self) -> Result<(), FormulaFault> {
         let rest = &self.text[self.at..];
         let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
         let (name, span) = (&rest[..length], self.at..self.at + length);
@@ -229,7 +229,7 @@ impl<'a> Parser<'a> {
     }
 
     /// The arguments of a function and its code; min and max take more than two one after the other.
-    fn call(&mut self, name: &str, function: Op) -> Result<(), Fault> {
+    fn call(&mut self, name: &str, function: Op) -> Result<(), FormulaFault> {
         let open = self.at;
         self.at += 1;
         let mut given = 1;
@@ -251,7 +251,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn close(&mut self, open: usize) -> Result<(), Fault> {
+    fn close(&mut self, open: usize) -> Result<(), FormulaFault> {
         match self.peek() {
             Some(')') => {
                 self.at += 1;
@@ -263,7 +263,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A character that cannot follow.
-    fn leftover(&self, c: char) -> Fault {
+    fn leftover(&self, c: char) -> FormulaFault {
         let between = "write one of + - * / ^ between two values";
         let (what, cure) = match c {
             ')' => ("\")\" closes nothing".into(), "remove it, or open \"(\" before it"),
@@ -279,18 +279,18 @@ impl<'a> Parser<'a> {
         self.fault(self.at..self.at + c.len_utf8(), &what, cure)
     }
 
-    fn fault_here(&self, what: &str, cure: &str) -> Fault {
+    fn fault_here(&self, what: &str, cure: &str) -> FormulaFault {
         let length = self.text[self.at..].chars().next().map_or(0, char::len_utf8);
         self.fault(self.at..self.at + length, what, cure)
     }
 
-    fn fault(&self, span: std::ops::Range<usize>, what: &str, cure: &str) -> Fault {
+    fn fault(&self, span: std::ops::Range<usize>, what: &str, cure: &str) -> FormulaFault {
         let number = self.text[..span.start].chars().count();
         let shown: String = self.text.chars().skip(number.saturating_sub(AROUND)).take(2 * AROUND).collect();
         let left = if number > AROUND { "…" } else { "" };
         let right =
             if number.saturating_sub(AROUND) + 2 * AROUND < self.text.chars().count() { "…" } else { "" };
         let what = format!("{what} at character {} of \"{left}{shown}{right}\"", number + 1);
-        Fault { span, what, cure: cure.into() }
+        FormulaFault { span, what, cure: cure.into() }
     }
 }

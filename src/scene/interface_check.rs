@@ -2,6 +2,7 @@
 
 use wildmatch::WildMatch;
 
+use super::named::{check_group, check_name};
 use super::{CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Variable, split_group};
 use crate::error::{Result, name_cure};
 use crate::law::Law;
@@ -10,7 +11,7 @@ impl Scene {
     /// Refuses the first thing that is wrong with an interface.
     pub(super) fn check_interface(&self, name: &str, interface: &Interface) -> Result<()> {
         let path = ["interfaces", name];
-        self.check_name(&path, name)?;
+        check_name(self, &path, name)?;
         if self.subdomains.contains_key(name) {
             let cure = "rename one of them: both name a file of results";
             return Err(self.source.refuse(&path, format!("\"{name}\" is also a subdomain"), cure));
@@ -63,7 +64,7 @@ impl Scene {
                 return Err(self.source.refuse(&path, "no curve", "name one, such as \"lower.top\""));
             }
             for group in side.names() {
-                self.check_group(&path, group)?;
+                check_group(self, &path, group)?;
                 if split_group(group).1.is_none() {
                     let what = format!("\"{group}\" is a whole body");
                     return Err(self.source.refuse(

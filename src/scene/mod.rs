@@ -10,6 +10,7 @@ mod functions;
 mod grammar;
 mod interface;
 mod interface_check;
+mod named;
 mod op;
 pub mod probe;
 mod read;

@@ -31,7 +31,7 @@ pub enum Variable {
 
 /// Why a text is no expression, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub struct FormulaFault {
     /// Bytes of the text that are wrong.
     pub span: std::ops::Range<usize>,
     /// What is wrong, with its position and the text around it.

@@ -12,8 +12,8 @@ use faer::{Accum, Mat, MatMut};
 use super::dense::{cholesky, cholesky_solve, detach, parallelism};
 use super::linear::tractions;
 use super::refine::Factored;
-use super::{Condensation, Continuum, NotPositiveDefinite, Solution};
-use crate::assembly::{Joint, Tangent};
+use super::{Condensation, Continuum, NodalSolution, NotPositiveDefinite};
+use crate::assembly::{InterfaceTangent, Joint};
 
 /// A factored base system.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl<'a> Base<'a> {
         let mut border = continuum.schur(&condensation);
         let place = |dof: usize| continuum.places[dof].map(|place| place as usize);
         for (joint, stiffness) in joints.iter().zip(stiffness) {
-            let mut tangent = Tangent::new(joint);
+            let mut tangent = InterfaceTangent::new(joint);
             tangent.fill(joint, stiffness);
             joint.visit_stiffness(&tangent.matrix, |row, column, value| {
                 if let (Some(i), Some(j)) = (place(row), place(column))
@@ -65,7 +65,7 @@ impl<'a> Base<'a> {
     }
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
-    pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> Solution {
+    pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> NodalSolution {
         self.refined(f, prescribed)
     }
 

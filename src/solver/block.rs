@@ -9,12 +9,12 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, Par};
 
-use super::bodies::Bodies;
+use super::modes::FloatingModes;
 use crate::assembly::Joint;
 
 /// What one body has to do with the joints.
 #[derive(Debug)]
-pub(super) struct Block {
+pub(super) struct SubdomainBlock {
     /// Unknowns of the jumps that it takes part in.
     pub(super) touched: Vec<usize>,
     /// G F̂ Gᵀ on these.
@@ -26,16 +26,16 @@ pub(super) struct Block {
     pub(super) most: usize,
 }
 
-impl Block {
+impl SubdomainBlock {
     /// Of body `b`. `first`: first unknown of every joint; `start`: the body's first rigid motion among the unknowns, and
     /// how many there could be.
     pub(super) fn new(
-        bodies: &Bodies,
+        bodies: &FloatingModes,
         joints: &[Joint],
         first: &[usize],
         b: usize,
         start: (usize, usize),
-    ) -> Block {
+    ) -> SubdomainBlock {
         let continuum = bodies.continuum;
         let (dofs, border) = (continuum.dofs_of(b), continuum.border_of(b));
         let mine = |joint: &&(usize, &Joint)| {
@@ -63,6 +63,6 @@ impl Block {
         solve_lower_triangular_in_place(bodies.factors[b].as_ref(), x.as_mut(), Par::Seq);
         let mut flexibility = Mat::zeros(touched.len(), touched.len());
         matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, Par::Seq);
-        Block { touched, flexibility, moved, first: start.0, most: start.1 }
+        SubdomainBlock { touched, flexibility, moved, first: start.0, most: start.1 }
     }
 }

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use faer::{Mat, MatMut};
 use rayon::prelude::*;
 
-use super::{Condensed, NotPositiveDefinite, Shelf, Substructure, TooLarge};
+use super::{CondensedSubdomain, NotPositiveDefinite, SubdomainCache, Substructure, TooLarge};
 use crate::assembly::Model;
 
 /// The bodies, each planned alone, and how their dofs are numbered together.
@@ -29,13 +29,13 @@ pub struct Continuum {
     coordinates: Vec<f64>,
     /// Nodes of the pieces of every body that falls into several.
     pieces: Vec<Vec<Vec<usize>>>,
-    shelf: Option<Arc<Shelf>>,
-    found: Mutex<Found>,
+    shelf: Option<Arc<SubdomainCache>>,
+    found: Mutex<CacheHits>,
 }
 
 /// What was on the shelf, by number of the body.
 #[derive(Debug, Clone, Default)]
-pub struct Found {
+pub struct CacheHits {
     /// Bodies with their stiffness.
     pub bodies: Vec<usize>,
     /// Their factors.
@@ -46,15 +46,15 @@ pub struct Found {
 #[derive(Debug)]
 pub struct Condensation {
     held: Vec<bool>,
-    bodies: Vec<Arc<Condensed>>,
+    bodies: Vec<Arc<CondensedSubdomain>>,
 }
 
 /// A body, its condensation, and what it keeps of right-hand sides.
-type Piece<'a> = ((&'a Arc<Substructure>, &'a Arc<Condensed>), Vec<Mat<f64>>);
+type InteriorRhs<'a> = ((&'a Arc<Substructure>, &'a Arc<CondensedSubdomain>), Vec<Mat<f64>>);
 
 impl Continuum {
     /// Assembles the bodies of a model and plans their condensation; what is on the shelf is taken from there.
-    pub fn new(model: &Model, shelf: Option<Arc<Shelf>>) -> Result<Continuum, TooLarge> {
+    pub fn new(model: &Model, shelf: Option<Arc<SubdomainCache>>) -> Result<Continuum, TooLarge> {
         let c = model.components;
         let joined = model.joined();
         let make = |b: usize| {
@@ -66,7 +66,7 @@ impl Continuum {
             }
         };
         let made: Vec<_> = (0..model.bodies.len()).into_par_iter().map(make).collect();
-        let (mut bodies, mut found) = (Vec::new(), Found::default());
+        let (mut bodies, mut found) = (Vec::new(), CacheHits::default());
         for (b, made) in made.into_iter().enumerate() {
             let (body, there) = made?;
             found.bodies.extend(there.then_some(b));
@@ -87,7 +87,7 @@ impl Continuum {
     }
 
     /// What was on the shelf so far.
-    pub fn found(&self) -> Found {
+    pub fn found(&self) -> CacheHits {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
@@ -184,7 +184,7 @@ impl Continuum {
     /// S, its lower triangle.
     pub(super) fn schur(&self, condensation: &Condensation) -> Mat<f64> {
         let mut whole = Mat::zeros(self.border(), self.border());
-        for (border, Condensed { schur, .. }) in
+        for (border, CondensedSubdomain { schur, .. }) in
             self.borders.iter().zip(condensation.bodies.iter().map(|c| &**c))
         {
             whole.submatrix_mut(border.start, border.start, border.len(), border.len()).copy_from(schur);
@@ -220,7 +220,7 @@ impl Continuum {
         let numbered = self.dofs.par_iter().zip(&self.borders);
         let pieces = self.bodies.par_iter().zip(&condensation.bodies).zip(inner).zip(numbered);
         let expand =
-            |(((body, condensed), inner), (dofs, border)): (Piece, (&Range<usize>, &Range<usize>))| {
+            |(((body, condensed), inner), (dofs, border)): (InteriorRhs, (&Range<usize>, &Range<usize>))| {
                 let mut own = vec![vec![0.0; dofs.len()]; x.ncols()];
                 let x = x.subrows(border.start, border.len());
                 body.parts.expand(&condensed.values, inner, x, &mut own);
@@ -234,10 +234,11 @@ impl Continuum {
 
     /// The way down of both substitutions: what every body keeps, and what the border then has.
     fn forward(&self, condensation: &Condensation, b: &[Vec<f64>]) -> (Vec<Vec<Mat<f64>>>, Mat<f64>) {
-        let reduce = |((body, condensed), dofs): ((&Arc<Substructure>, &Arc<Condensed>), &Range<usize>)| {
-            let b: Vec<&[f64]> = b.iter().map(|b| &b[dofs.clone()]).collect();
-            body.parts.reduce(&condensed.values, &b)
-        };
+        let reduce =
+            |((body, condensed), dofs): ((&Arc<Substructure>, &Arc<CondensedSubdomain>), &Range<usize>)| {
+                let b: Vec<&[f64]> = b.iter().map(|b| &b[dofs.clone()]).collect();
+                body.parts.reduce(&condensed.values, &b)
+            };
         let pieces = self.bodies.par_iter().zip(&condensation.bodies).zip(&self.dofs);
         let reduced: Vec<(Vec<Mat<f64>>, Mat<f64>)> = pieces.map(reduce).collect();
         let (mut inner, mut whole) = (Vec::new(), Mat::zeros(self.border(), b.len()));

@@ -1,7 +1,7 @@
 //! What Newton's method asks of a form of the equilibrium, and what a form asks of the laws.
 
-use super::{Measure, Ramp, Solution};
-use crate::assembly::{Joint, Tangent};
+use super::{LinearMeasure, NodalSolution, Ramp};
+use crate::assembly::{InterfaceTangent, Joint};
 
 /// What answers at the law points.
 pub trait Respond: Sync {
@@ -37,7 +37,7 @@ pub trait Form {
     /// Prepares what loads that are affine in the load level allow; false if that is nothing, as of a form that does not say
     /// otherwise. Then `prepared` has the target at a level, and `measured` what was asked for, without recovering
     /// displacements.
-    fn prepare(&mut self, _ramp: Option<&Ramp>, _measures: &[Measure]) -> bool {
+    fn prepare(&mut self, _ramp: Option<&Ramp>, _measures: &[LinearMeasure]) -> bool {
         false
     }
     /// b at a level of the prepared loads.
@@ -55,9 +55,9 @@ pub trait Form {
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
     /// What rounding alone may leave of the residual, measured like `error`.
-    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64;
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64;
     /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
-    fn factor(&mut self, tangents: &[Tangent]) -> bool;
+    fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool;
     /// J⁻¹ b in place.
     fn solve(&self, b: &mut [f64]);
     /// What the displacements of a solution say the residual still is; empty where it is known exactly.
@@ -65,5 +65,5 @@ pub trait Form {
     /// Σ c · a over the active joints, for weights on their jump coefficients, as weights on x.
     fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64>;
     /// Displacements and reactions of a solution.
-    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution;
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution;
 }

@@ -14,7 +14,7 @@ use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::dense::Lu;
-use crate::assembly::Tangent;
+use crate::assembly::InterfaceTangent;
 use crate::sparse::Csr;
 
 /// Of all rows at most this part is updated: the cubes of the sizes are then as one to two.
@@ -33,7 +33,7 @@ pub(super) struct Jacobian {
     updates: bool,
     base: Option<Sound>,
     /// Values of T, and the factor for them.
-    factored: Option<(Vec<f64>, Factor)>,
+    factored: Option<(Vec<f64>, JacobianFactor)>,
 }
 
 #[derive(Debug)]
@@ -44,7 +44,7 @@ struct Sound {
 }
 
 #[derive(Debug)]
-enum Factor {
+enum JacobianFactor {
     Whole(Lu),
     Update { rows: Vec<usize>, change: Csr, lu: Lu },
 }
@@ -59,7 +59,7 @@ impl Jacobian {
     }
 
     /// Factors J for the tangents of all active joints, unless that is what is factored.
-    pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[Tangent]) {
+    pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[InterfaceTangent]) {
         let values: Vec<f64> = tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
         if self.factored.as_ref().is_some_and(|(of, _)| *of == values) {
             return;
@@ -78,9 +78,12 @@ impl Jacobian {
                     column[a] = if a == b { 1.0 + sum } else { sum };
                 }
             });
-            Factor::Update { rows, change, lu: Lu::new(matrix) }
+            JacobianFactor::Update { rows, change, lu: Lu::new(matrix) }
         } else {
-            Factor::Whole(Lu::new(whole(flexibility, &self.springs.less(&values, &self.springs.values))))
+            JacobianFactor::Whole(Lu::new(whole(
+                flexibility,
+                &self.springs.less(&values, &self.springs.values),
+            )))
         };
         self.factored = Some((values, factor));
     }
@@ -88,8 +91,8 @@ impl Jacobian {
     /// J⁻¹ b in place.
     pub(super) fn solve(&self, b: &mut [f64]) {
         match (&self.factored, &self.base) {
-            (Some((_, Factor::Whole(lu))), _) => lu.solve(b),
-            (Some((_, Factor::Update { rows, change, lu })), Some(base)) => {
+            (Some((_, JacobianFactor::Whole(lu))), _) => lu.solve(b),
+            (Some((_, JacobianFactor::Update { rows, change, lu })), Some(base)) => {
                 base.lu.solve(b);
                 let product = |&row: &usize| {
                     let (columns, values) = change.row(row);

@@ -5,8 +5,8 @@
 //! ```
 
 use super::refine::Factored;
-use super::{Factor, NotPositiveDefinite, Plan, Solution};
-use crate::assembly::{Joint, Pattern, Symmetric};
+use super::{Factor, FactorPlan, NodalSolution, NotPositiveDefinite};
+use crate::assembly::{Joint, Pattern, Symmetric, add_stiffness};
 
 /// The matrix of a linear scene: continuum and joints of constant stiffness.
 #[derive(Debug, Clone, Copy)]
@@ -32,10 +32,14 @@ pub struct Linear<'a> {
 
 impl<'a> Linear<'a> {
     /// Factors the system with the dofs in `held` prescribed.
-    pub fn new(system: System<'a>, plan: &'a Plan, held: &[bool]) -> Result<Linear<'a>, NotPositiveDefinite> {
+    pub fn new(
+        system: System<'a>,
+        plan: &'a FactorPlan,
+        held: &[bool],
+    ) -> Result<Linear<'a>, NotPositiveDefinite> {
         let mut total = system.continuum.clone();
         for (joint, stiffness) in system.joints.iter().zip(system.stiffness) {
-            joint.add_stiffness(system.pattern, stiffness, &mut total);
+            add_stiffness(joint, system.pattern, stiffness, &mut total);
         }
         let taken = total.hold(system.pattern, held);
         let factor = plan.factor(system.pattern, &total)?;
@@ -44,7 +48,7 @@ impl<'a> Linear<'a> {
     }
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
-    pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> Solution {
+    pub fn solve(&self, f: &[f64], prescribed: &[f64]) -> NodalSolution {
         self.refined(f, prescribed)
     }
 }

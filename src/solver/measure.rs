@@ -7,7 +7,7 @@
 //! ```
 
 use super::refine::Factored;
-use super::{Base, Solution};
+use super::{Base, NodalSolution};
 
 /// Loads and prescribed displacements that are affine in the load level: their values at levels 0 and 1.
 #[derive(Debug, Clone)]
@@ -20,19 +20,19 @@ pub struct Ramp {
 
 /// A weighted sum over dofs.
 #[derive(Debug, Clone)]
-pub enum Measure {
+pub enum LinearMeasure {
     /// Of displacements.
     Displacement(Vec<(usize, f64)>),
     /// Of the reactions at held dofs; other dofs count nothing.
     Reaction(Vec<(usize, f64)>),
 }
 
-impl Measure {
+impl LinearMeasure {
     /// Its value for displacements and reactions.
-    pub fn of(&self, solution: &Solution) -> f64 {
+    pub fn of(&self, solution: &NodalSolution) -> f64 {
         let (terms, values) = match self {
-            Measure::Displacement(terms) => (terms, &solution.u),
-            Measure::Reaction(terms) => (terms, &solution.reactions),
+            LinearMeasure::Displacement(terms) => (terms, &solution.u),
+            LinearMeasure::Reaction(terms) => (terms, &solution.reactions),
         };
         terms.iter().map(|&(dof, weight)| weight * values[dof]).sum()
     }
@@ -51,8 +51,8 @@ impl Functional {
         base: &Base,
         active: &[usize],
         ramp: &Ramp,
-        ends: &[Solution],
-        measures: &[Measure],
+        ends: &[NodalSolution],
+        measures: &[LinearMeasure],
     ) -> Vec<Functional> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let coefficients = |v: &[f64]| active.iter().flat_map(|&k| base.joints[k].coefficients(v)).collect();
@@ -63,8 +63,8 @@ impl Functional {
             let mut c = nothing.clone();
             let mut functional = Functional { ends: [0.0; 2], weights: Vec::new() };
             match measure {
-                Measure::Displacement(terms) => terms.iter().for_each(|&(dof, value)| c[dof] += value),
-                Measure::Reaction(terms) => {
+                LinearMeasure::Displacement(terms) => terms.iter().for_each(|&(dof, value)| c[dof] += value),
+                LinearMeasure::Reaction(terms) => {
                     let held = terms.iter().filter(|(dof, _)| base.held()[*dof]);
                     held.for_each(|&(dof, value)| c[dof] += value);
                     functional.ends = [0, 1].map(|end| -dot(&c, &ramp.force[end]));

@@ -24,7 +24,8 @@ pub(super) fn free_motions(
 ) -> Vec<Vec<f64>> {
     let whole = [(0..coordinates.len() / components).collect()];
     let pieces = if pieces.is_empty() { &whole } else { pieces };
-    let pieces: Vec<Piece> = pieces.iter().map(|nodes| Piece::new(components, nodes, coordinates)).collect();
+    let pieces: Vec<ModalPiece> =
+        pieces.iter().map(|nodes| ModalPiece::new(components, nodes, coordinates)).collect();
     let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (p, piece) in pieces.iter().enumerate().filter(|_| pieces.len() > 1) {
         piece.nodes.iter().for_each(|&node| of_node.entry(node).or_default().push(p));
@@ -40,7 +41,7 @@ pub(super) fn most(components: usize, pieces: &[Vec<usize>]) -> usize {
 }
 
 /// A piece and its rigid motions: translations, then turns about its centre in every plane of axes.
-struct Piece<'a> {
+struct ModalPiece<'a> {
     nodes: &'a [usize],
     coordinates: &'a [f64],
     centre: Vec<f64>,
@@ -48,15 +49,15 @@ struct Piece<'a> {
     planes: Vec<(usize, usize)>,
 }
 
-impl<'a> Piece<'a> {
-    fn new(c: usize, nodes: &'a [usize], coordinates: &'a [f64]) -> Piece<'a> {
+impl<'a> ModalPiece<'a> {
+    fn new(c: usize, nodes: &'a [usize], coordinates: &'a [f64]) -> ModalPiece<'a> {
         let at = |node: usize, d: usize| coordinates[c * node + d];
         let mean = |d: usize| nodes.iter().map(|&node| at(node, d)).sum::<f64>() / nodes.len() as f64;
         let centre: Vec<f64> = (0..c).map(mean).collect();
         let reach = |&node: &usize| (0..c).map(|d| (at(node, d) - centre[d]).powi(2)).sum::<f64>().sqrt();
         let size = nodes.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
         let planes = (0..c).flat_map(|p| (p + 1..c).map(move |q| (p, q))).collect();
-        Piece { nodes, coordinates, centre, size, planes }
+        ModalPiece { nodes, coordinates, centre, size, planes }
     }
 
     fn components(&self) -> usize {
@@ -96,7 +97,7 @@ fn chains(count: usize, of_node: &BTreeMap<usize, Vec<usize>>) -> Vec<Vec<usize>
 /// The free motions of pieces that hang together.
 fn of_chain(
     chain: &[usize],
-    pieces: &[Piece],
+    pieces: &[ModalPiece],
     of_node: &BTreeMap<usize, Vec<usize>>,
     held: &[bool],
     places: &[Option<u32>],

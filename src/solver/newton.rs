@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
 use super::evaluation::{Answers, Evaluation, ask, evaluate, unconverged};
 use super::{Form, Respond};
-use crate::assembly::Tangent;
+use crate::assembly::InterfaceTangent;
 
 /// Most halvings of a step.
 const HALVINGS: usize = 10;
@@ -27,7 +27,7 @@ const SHOWN_MOST: f64 = 1e-10;
 
 /// When Newton ends, and with which tangent it goes.
 #[derive(Debug, Clone, Copy)]
-pub struct Settings {
+pub struct NewtonSettings {
     /// Largest relative residual of a solution.
     pub tolerance: f64,
     /// Most iterations.
@@ -71,13 +71,13 @@ pub struct Unconverged {
 /// Newton's method on one form; the tangents' patterns are built once.
 #[derive(Debug)]
 pub struct Newton {
-    pub(super) tangents: Vec<Tangent>,
+    pub(super) tangents: Vec<InterfaceTangent>,
 }
 
 impl Newton {
     /// For the active joints of a form.
     pub fn new(form: &impl Form) -> Newton {
-        Newton { tangents: form.active().iter().map(|&k| Tangent::new(&form.joints()[k])).collect() }
+        Newton { tangents: form.active().iter().map(|&k| InterfaceTangent::new(&form.joints()[k])).collect() }
     }
 
     /// Solves R(x) = 0 from the best of some starting points.
@@ -87,7 +87,7 @@ impl Newton {
         laws: &L,
         starts: &[&Vec<f64>],
         target: &[f64],
-        settings: Settings,
+        settings: NewtonSettings,
     ) -> Result<Iterate<L::Memory>, Unconverged> {
         let mut best: Option<(Vec<f64>, Evaluation<L::Memory>)> = None;
         for start in starts {
@@ -151,7 +151,7 @@ impl Newton {
         x: &[f64],
         target: &[f64],
         mut change: Vec<f64>,
-        settings: Settings,
+        settings: NewtonSettings,
     ) -> Result<Vec<f64>, Unconverged> {
         let now = evaluate(form, laws, x, target)?;
         self.fill(form, laws, &now, settings);
@@ -244,7 +244,7 @@ impl Newton {
         form: &impl Form,
         laws: &L,
         now: &Evaluation<L::Memory>,
-        settings: Settings,
+        settings: NewtonSettings,
     ) {
         for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
             let joint = &form.joints()[k];

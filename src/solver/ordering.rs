@@ -70,7 +70,7 @@ struct Dissection<'a> {
 
 /// A cut of a sorted set: the nodes before `at`, the others, and which of them touch the other part.
 #[derive(Clone, Copy)]
-struct Cut {
+struct Bisection {
     /// Size of the separator.
     size: usize,
     /// Size of the separator over the product of the sizes of both parts.
@@ -101,7 +101,7 @@ impl Dissection<'_> {
                 cut = other;
             }
         }
-        let Cut { axis, at, before, .. } = cut;
+        let Bisection { axis, at, before, .. } = cut;
         if sorted != axis {
             self.sort(nodes, axis);
         }
@@ -183,7 +183,7 @@ impl Dissection<'_> {
     }
 
     /// The cut of a sorted set with the least ratio.
-    fn best(&self, nodes: &[u32], axis: usize) -> Cut {
+    fn best(&self, nodes: &[u32], axis: usize) -> Bisection {
         // a node at place i with neighbours from `low` to `high` is in the boundary of the part before for the cuts at
         // i + 1 ..= high, of the part behind for those at low + 1 ..= i
         let mut changes = vec![[0_i32; 2]; nodes.len() + 1];
@@ -196,7 +196,7 @@ impl Dissection<'_> {
             }
             changes[low + 1][1] += i32::from(low < i);
         }
-        let mut best = Cut { size: 0, ratio: f64::INFINITY, axis, at: nodes.len() / 2, before: true };
+        let mut best = Bisection { size: 0, ratio: f64::INFINITY, axis, at: nodes.len() / 2, before: true };
         let mut sizes = [0_i32; 2];
         let least = nodes.len().div_ceil(LEAST);
         for at in 1..nodes.len() {
@@ -210,7 +210,7 @@ impl Dissection<'_> {
             let size = sizes[0].min(sizes[1]) as usize;
             let ratio = (size as f64).max(0.5) / product; // without separator the middle is best
             if ratio < best.ratio {
-                best = Cut { size, ratio, axis, at, before: sizes[0] < sizes[1] };
+                best = Bisection { size, ratio, axis, at, before: sizes[0] < sizes[1] };
             }
         }
         best

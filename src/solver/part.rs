@@ -18,7 +18,7 @@ use crate::assembly::{Pattern, Symmetric};
 #[derive(Debug)]
 pub(super) struct Part {
     /// [Aₚ Bₚᵀ; Bₚ C], the border last.
-    pub(super) block: Block,
+    pub(super) block: Submatrix,
     /// Number of dofs before those of the border.
     pub(super) inner: usize,
     /// Place of its border dofs in the whole border.
@@ -28,7 +28,7 @@ pub(super) struct Part {
 
 /// The lower triangle of a principal submatrix.
 #[derive(Debug)]
-pub(super) struct Block {
+pub(super) struct Submatrix {
     /// Its dofs in the whole matrix.
     pub(super) dofs: Vec<u32>,
     offsets: Vec<u32>,
@@ -37,14 +37,14 @@ pub(super) struct Block {
     pub(super) source: Vec<u32>,
 }
 
-impl Block {
+impl Submatrix {
     /// Of the dofs of some nodes; `local` is the place of a node among them.
     pub(super) fn new(
         pattern: &Pattern,
         graph: &Graph,
         nodes: &[u32],
         local: impl Fn(u32) -> Option<u32>,
-    ) -> Block {
+    ) -> Submatrix {
         let c = pattern.components() as u32;
         let dofs = nodes.iter().flat_map(|&node| c * node..c * (node + 1)).collect();
         let (mut offsets, mut rows, mut source) = (vec![0], Vec::new(), Vec::new());
@@ -71,7 +71,7 @@ impl Block {
                 offsets.push(rows.len() as u32);
             }
         }
-        Block { dofs, offsets, rows, source }
+        Submatrix { dofs, offsets, rows, source }
     }
 
     /// Where it has entries.

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use super::cut::Cut;
 use super::dense::{cholesky, cholesky_solve};
 use super::graph::NONE;
-use super::part::{Block, Part};
+use super::part::{Part, Submatrix};
 use super::{NotPositiveDefinite, Symbolic, TooLarge};
 use crate::assembly::{Pattern, Symmetric};
 
@@ -30,7 +30,7 @@ use crate::assembly::{Pattern, Symmetric};
 pub struct Parts {
     parts: Vec<Part>,
     /// C.
-    border: Block,
+    border: Submatrix,
 }
 
 /// The factors of all parts and of the border.
@@ -77,7 +77,7 @@ impl Parts {
                     of if of == p as u32 => Some(place[node as usize]),
                     _ => None,
                 };
-                let block = Block::new(pattern, &graph, &nodes, local);
+                let block = Submatrix::new(pattern, &graph, &nodes, local);
                 let plan = Symbolic::as_is(block.structure())?;
                 let border = touched.iter().flat_map(|&k| c * k..c * (k + 1)).collect();
                 Ok(Part { inner: c as usize * inner, border, plan, block })
@@ -85,7 +85,7 @@ impl Parts {
             .collect();
         let parts = planned.into_iter().collect::<Result<Vec<Part>, TooLarge>>()?;
         let local = |node: u32| (part_of[node as usize] == NONE).then(|| place[node as usize]);
-        Ok(Parts { parts, border: Block::new(pattern, &graph, &border, local) })
+        Ok(Parts { parts, border: Submatrix::new(pattern, &graph, &border, local) })
     }
 
     /// Number of entries of all factors.

@@ -14,7 +14,7 @@
 
 use super::evaluation::{Evaluation, evaluate, unconverged};
 use super::newton::STALLED;
-use super::{Form, Iterate, Newton, Respond, Settings, Unconverged};
+use super::{Form, Iterate, Newton, NewtonSettings, Respond, Unconverged};
 
 /// The constraint is met to this: it says how far to go, not where the path is.
 const MET: f64 = 1e-2;
@@ -100,7 +100,7 @@ impl Constraint {
 
 /// Where a search stands: unknowns and load level.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct PathPoint {
     /// The unknowns of the form.
     pub x: Vec<f64>,
     /// Load level.
@@ -113,12 +113,12 @@ impl Newton {
         &mut self,
         form: &mut impl Form,
         laws: &L,
-        start: Point,
+        start: PathPoint,
         load: &Affine,
         constraint: &Constraint,
-        settings: Settings,
+        settings: NewtonSettings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
-        let Point { mut x, mut level } = start;
+        let PathPoint { mut x, mut level } = start;
         let mut now = evaluate(form, laws, &x, &load.at(level))?;
         let mut residuals = vec![now.error];
         for iterations in 0..=settings.iterations {
@@ -179,11 +179,11 @@ impl Newton {
         &mut self,
         form: &mut impl Form,
         laws: &L,
-        from: &Point,
+        from: &PathPoint,
         load: &Affine,
         amount: f64,
-        settings: Settings,
-    ) -> Result<Point, Unconverged> {
+        settings: NewtonSettings,
+    ) -> Result<PathPoint, Unconverged> {
         let (now, direction) = self.tangent(form, laws, from, load, settings)?;
         let at = |change: f64| from.moved(&direction, change);
         let (mut low, mut high, mut change) = (0.0, f64::INFINITY, 1e-3);
@@ -205,11 +205,11 @@ impl Newton {
         &mut self,
         form: &mut impl Form,
         laws: &L,
-        from: &Point,
+        from: &PathPoint,
         load: &Affine,
         change: f64,
-        settings: Settings,
-    ) -> Result<Point, Unconverged> {
+        settings: NewtonSettings,
+    ) -> Result<PathPoint, Unconverged> {
         let (_, direction) = self.tangent(form, laws, from, load, settings)?;
         Ok(from.moved(&direction, change))
     }
@@ -219,9 +219,9 @@ impl Newton {
         &mut self,
         form: &mut impl Form,
         laws: &L,
-        from: &Point,
+        from: &PathPoint,
         load: &Affine,
-        settings: Settings,
+        settings: NewtonSettings,
     ) -> Result<(Evaluation<L::Memory>, Vec<f64>), Unconverged> {
         let now = evaluate(form, laws, &from.x, &load.at(from.level))?;
         self.fill(form, laws, &now, settings);
@@ -233,10 +233,10 @@ impl Newton {
     }
 }
 
-impl Point {
-    fn moved(&self, direction: &[f64], change: f64) -> Point {
+impl PathPoint {
+    fn moved(&self, direction: &[f64], change: f64) -> PathPoint {
         let x = self.x.iter().zip(direction).map(|(x, d)| x + change * d).collect();
-        Point { x, level: self.level + change }
+        PathPoint { x, level: self.level + change }
     }
 }
 

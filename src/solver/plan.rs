@@ -8,7 +8,7 @@ use crate::assembly::{Pattern, Symmetric};
 
 /// The factorisation's plan for one pattern.
 #[derive(Debug)]
-pub enum Plan {
+pub enum FactorPlan {
     /// One factor of the whole matrix.
     Joined(Symbolic),
     /// Parts side by side, then what they share.
@@ -24,51 +24,51 @@ pub enum Factor<'a> {
     InParts(PartsFactor<'a>),
 }
 
-impl Plan {
+impl FactorPlan {
     /// Orders and analyses a pattern: a large one in parts where its border is small. `coordinates` are those of its
     /// nodes, one node after the other.
-    pub fn analyse(pattern: &Pattern, coordinates: &[f64]) -> Result<Plan, TooLarge> {
+    pub fn analyse(pattern: &Pattern, coordinates: &[f64]) -> Result<FactorPlan, TooLarge> {
         if pattern.size() <= MEDIUM {
-            return Symbolic::analyse(pattern, coordinates).map(Plan::Joined);
+            return Symbolic::analyse(pattern, coordinates).map(FactorPlan::Joined);
         }
         let order = nested_dissection(pattern, coordinates);
         let cut = Cut::new(pattern, &order);
         if cut.pays() {
-            return Parts::new(pattern, cut).map(Plan::InParts);
+            return Parts::new(pattern, cut).map(FactorPlan::InParts);
         }
         drop(cut);
-        Symbolic::with_order(pattern, &order).map(Plan::Joined)
+        Symbolic::with_order(pattern, &order).map(FactorPlan::Joined)
     }
 
     /// Way in which it solves.
     pub fn method(&self) -> Method {
         match self {
-            Plan::Joined(_) => Method::Joined,
-            Plan::InParts(_) => Method::InParts,
+            FactorPlan::Joined(_) => Method::Joined,
+            FactorPlan::InParts(_) => Method::InParts,
         }
     }
 
     /// Number of entries of the factors.
     pub fn entries(&self) -> usize {
         match self {
-            Plan::Joined(plan) => plan.entries(),
-            Plan::InParts(plan) => plan.entries(),
+            FactorPlan::Joined(plan) => plan.entries(),
+            FactorPlan::InParts(plan) => plan.entries(),
         }
     }
 
     /// Memory of the factors and of the work on them [bytes].
     pub fn bytes(&self) -> usize {
         match self {
-            Plan::Joined(plan) => plan.bytes(),
-            Plan::InParts(plan) => plan.bytes(),
+            FactorPlan::Joined(plan) => plan.bytes(),
+            FactorPlan::InParts(plan) => plan.bytes(),
         }
     }
 
     /// Factors a matrix on the pattern that was analysed.
     pub fn factor(&self, pattern: &Pattern, matrix: &Symmetric) -> Result<Factor<'_>, NotPositiveDefinite> {
         match self {
-            Plan::Joined(plan) => plan.factor(pattern, matrix).map(Factor::Joined),
-            Plan::InParts(plan) => plan.factor(matrix).map(Factor::InParts),
+            FactorPlan::Joined(plan) => plan.factor(pattern, matrix).map(Factor::Joined),
+            FactorPlan::InParts(plan) => plan.factor(matrix).map(Factor::InParts),
         }
     }
 }

@@ -9,7 +9,7 @@ const REFINEMENTS: usize = 5;
 
 /// An answer of a linear system.
 #[derive(Debug, Clone)]
-pub struct Solution {
+pub struct NodalSolution {
     /// Displacement of every dof [length].
     pub u: Vec<f64>,
     /// Force of the supports at held dofs, zero elsewhere [force].
@@ -41,13 +41,13 @@ pub trait Factored {
     fn apply(&self, b: &mut [Vec<f64>]);
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
-    fn refined(&self, f: &[f64], prescribed: &[f64]) -> Solution {
+    fn refined(&self, f: &[f64], prescribed: &[f64]) -> NodalSolution {
         let mut solutions = self.refined_all(&[(f, prescribed)]);
         solutions.remove(0)
     }
 
     /// Solves for several pairs of forces and prescribed displacements, side by side in one sweep through the factors.
-    fn refined_all(&self, loads: &[(&[f64], &[f64])]) -> Vec<Solution> {
+    fn refined_all(&self, loads: &[(&[f64], &[f64])]) -> Vec<NodalSolution> {
         let free = |i: usize| !self.held()[i];
         let start = |&(f, prescribed): &(&[f64], &[f64])| {
             let u: Vec<f64> = (0..f.len()).map(|i| if free(i) { 0.0 } else { prescribed[i] }).collect();
@@ -81,7 +81,7 @@ pub trait Factored {
                 }
             }
         }
-        let solution = |Refined { best: ([backward_error, _], u, residual), .. }| Solution {
+        let solution = |Refined { best: ([backward_error, _], u, residual), .. }| NodalSolution {
             reactions: self.reactions(&residual),
             u,
             backward_error,

@@ -22,12 +22,12 @@ pub struct Substructure {
     /// The interior as one part, the rest as border.
     pub(super) parts: Parts,
     /// Condensations that are kept.
-    kept: Mutex<Vec<Arc<Condensed>>>,
+    kept: Mutex<Vec<Arc<CondensedSubdomain>>>,
 }
 
 /// The interior's factor under one set of supports, and S.
 #[derive(Debug)]
-pub struct Condensed {
+pub struct CondensedSubdomain {
     /// Dofs of the interior that are held.
     held: Vec<bool>,
     /// Values of L.
@@ -52,21 +52,21 @@ impl Substructure {
     }
 
     /// Eliminates the interior; `held` are its held dofs, none on the border.
-    pub(super) fn condense(&self, held: Vec<bool>) -> Result<Condensed, NotPositiveDefinite> {
+    pub(super) fn condense(&self, held: Vec<bool>) -> Result<CondensedSubdomain, NotPositiveDefinite> {
         let mut matrix = self.stiffness.clone();
         matrix.hold(&self.pattern, &held);
         let (values, schur) = self.parts.eliminate(&matrix, true)?;
-        Ok(Condensed { held, values, schur })
+        Ok(CondensedSubdomain { held, values, schur })
     }
 
     /// A condensation that was kept for these supports.
-    pub(super) fn kept(&self, held: &[bool]) -> Option<Arc<Condensed>> {
+    pub(super) fn kept(&self, held: &[bool]) -> Option<Arc<CondensedSubdomain>> {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.iter().find(|condensed| condensed.held == held).cloned()
     }
 
     /// Keeps a condensation for whoever has this body again.
-    pub(super) fn keep(&self, condensed: &Arc<Condensed>) {
+    pub(super) fn keep(&self, condensed: &Arc<CondensedSubdomain>) {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).push(condensed.clone());
     }
 

@@ -101,6 +101,32 @@ impl Csr {
         }
     }
 
+    /// A B, row by row.
+    pub fn product(&self, b: &Csr) -> Csr {
+        let mut result = Csr { offsets: vec![0], width: b.width, ..Csr::default() };
+        let mut row: Vec<(usize, f64)> = Vec::new();
+        for i in 0..self.rows() {
+            row.clear();
+            let (columns, values) = self.row(i);
+            for (&k, &value) in columns.iter().zip(values) {
+                let (b_columns, b_values) = b.row(k);
+                row.extend(b_columns.iter().zip(b_values).map(|(&j, b)| (j, value * b)));
+            }
+            row.sort_by_key(|&(j, _)| j);
+            for &(j, value) in &row {
+                if result.columns.len() > result.offsets[i] && result.columns[result.columns.len() - 1] == j {
+                    let end = result.values.len() - 1;
+                    result.values[end] += value;
+                } else {
+                    result.columns.push(j);
+                    result.values.push(value);
+                }
+            }
+            result.offsets.push(result.columns.len());
+        }
+        result
+    }
+
     /// The transposed matrix.
     pub fn transposed(&self) -> Csr {
         let mut offsets = vec![0; self.width + 1];

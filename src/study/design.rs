@@ -8,7 +8,7 @@ use crate::scene::Source;
 
 /// A point: what its axes are set to, as shown, and all its settings in order.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Point {
+pub(super) struct StudyPoint {
     /// One value per axis, null where the scene rules.
     pub(super) values: Vec<Value>,
     /// KEY=VALUE.
@@ -19,7 +19,7 @@ pub(super) struct Point {
 const MOST: usize = 1_000_000;
 
 /// The points of a study in order; `source` is for refusals.
-pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<Point>> {
+pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<StudyPoint>> {
     for (name, axis) in &study.axes {
         check(name, axis, source)?;
     }
@@ -63,7 +63,7 @@ pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<Point>> {
         for (axis, value) in study.axes.values().zip(&values) {
             value.iter().for_each(|value| settings.extend(axis_settings(axis, value)));
         }
-        Point { values: values.into_iter().map(Option::unwrap_or_default).collect(), settings }
+        StudyPoint { values: values.into_iter().map(Option::unwrap_or_default).collect(), settings }
     };
     Ok(choices.into_iter().map(point).collect())
 }
@@ -189,7 +189,7 @@ mod tests {
     use super::*;
     use crate::scene::document;
 
-    fn of(text: &str) -> Result<Vec<Point>> {
+    fn of(text: &str) -> Result<Vec<StudyPoint>> {
         let (study, source) = document::<Study>("study.json".into(), text.into(), "a study", |_, _| Ok(()))?;
         points(&study, &source)
     }

@@ -8,8 +8,8 @@ use indexmap::IndexMap;
 
 use super::file::{Field, Measure};
 use crate::assembly::Model;
-use crate::history::{State, Totals};
-use crate::output::Row;
+use crate::history::{ModelState, Totals};
+use crate::output::HistoryRow;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::{Place, Value};
 
@@ -32,7 +32,7 @@ impl<'a> Gauge<'a> {
     }
 
     /// Looks at an increment.
-    pub(super) fn look(&mut self, row: &Row, totals: &Totals, problem: &Problem, state: &State) {
+    pub(super) fn look(&mut self, row: &HistoryRow, totals: &Totals, problem: &Problem, state: &ModelState) {
         for ((name, measure), taken) in self.measures.iter().zip(&mut self.taken) {
             let column = |of: &str| value(row, problem, name, of);
             match measure {
@@ -81,13 +81,13 @@ pub(super) fn column_of(measure: &str, of: &str) -> String {
     format!("study:{measure}:{of}")
 }
 
-fn value(row: &Row, problem: &Problem, measure: &str, of: &str) -> f64 {
+fn value(row: &HistoryRow, problem: &Problem, measure: &str, of: &str) -> f64 {
     let made = column_of(measure, of);
     let found = problem.columns().iter().position(|name| *name == of || *name == made);
     found.and_then(|i| row.values.get(i)).copied().unwrap_or(f64::NAN)
 }
 
-fn error(problem: &Problem, state: &State, field: Field, of: &str, exact: &[Value; 2]) -> f64 {
+fn error(problem: &Problem, state: &ModelState, field: Field, of: &str, exact: &[Value; 2]) -> f64 {
     let model = &problem.model;
     let sums = match field {
         Field::Displacement => displacement(model, &state.snapshot.u, of, exact),

@@ -18,9 +18,9 @@ mod reference;
 mod table;
 
 pub use file::{Axis, Design, Field, Measure, Process, Reference, Settings, Study, study_schema};
-pub use outcome::Outcome;
-pub use plan::Plan;
-pub use point::Means;
+pub use outcome::PointOutcome;
+pub use plan::StudyPlan;
+pub use point::StudyMeans;
 pub use reference::{FLOOR, Limit};
 pub use table::Limits;
 
@@ -41,14 +41,14 @@ pub struct Progress<'a> {
     /// All points.
     pub total: usize,
     /// The last of them; absent when the study starts or goes on.
-    pub outcome: Option<&'a Outcome>,
+    pub outcome: Option<&'a PointOutcome>,
 }
 
 /// What a study leaves behind.
 #[derive(Debug)]
-pub struct Done {
+pub struct StudyDone {
     /// Outcomes of the design's points, then of the reference's.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<PointOutcome>,
     /// How many are the design's.
     pub designed: usize,
     /// What every measure is compared with.
@@ -56,10 +56,10 @@ pub struct Done {
 }
 
 /// Runs every point that has no outcome yet, then writes study.csv and study.json.
-pub fn run(plan: &Plan, means: &Means, listen: &mut dyn FnMut(Progress)) -> Result<Done> {
+pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress)) -> Result<StudyDone> {
     let total = plan.len();
     let shared = &Shared::new(&means.options, &means.meshes());
-    let mut outcomes: Vec<Option<Outcome>> =
+    let mut outcomes: Vec<Option<PointOutcome>> =
         (0..total).map(|k| point::earlier(plan, means, shared, k)).collect();
     let missing: VecDeque<usize> = (0..total).filter(|&k| outcomes[k].is_none()).collect();
     let mut done = total - missing.len();
@@ -93,20 +93,20 @@ pub fn run(plan: &Plan, means: &Means, listen: &mut dyn FnMut(Progress)) -> Resu
     if let Some(error) = first_error {
         return Err(error);
     }
-    let outcomes: Vec<Outcome> = outcomes.into_iter().flatten().collect();
+    let outcomes: Vec<PointOutcome> = outcomes.into_iter().flatten().collect();
     let designed = plan.designed.min(outcomes.len());
     let limits = table::limits(plan, &outcomes[designed..]);
     table::write(plan, means, &limits, &outcomes)?;
-    Ok(Done { outcomes, designed, limits })
+    Ok(StudyDone { outcomes, designed, limits })
 }
 
 /// Takes points from the queue until it is empty.
 fn work(
-    plan: &Plan,
-    means: &Means,
+    plan: &StudyPlan,
+    means: &StudyMeans,
     shared: &Shared,
     queue: &Mutex<VecDeque<usize>>,
-    send: &mpsc::Sender<Result<Outcome>>,
+    send: &mpsc::Sender<Result<PointOutcome>>,
 ) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(means.threads).build();
     let pool =
@@ -126,14 +126,14 @@ fn work(
 }
 
 /// Runs exactly one point, whatever there is of it.
-pub fn run_one(plan: &Plan, means: &Means, point: usize) -> Result<Outcome> {
+pub fn run_one(plan: &StudyPlan, means: &StudyMeans, point: usize) -> Result<PointOutcome> {
     known(plan, point)?;
     let shared = Shared::new(&means.options, &means.meshes());
     point::run_point(plan, means, &shared, point)
 }
 
 /// One run of a point in this process, its outcome written to `file`: what a process of its own does.
-pub fn run_once(plan: &Plan, means: &Means, point: usize, file: &Path) -> Result<Outcome> {
+pub fn run_once(plan: &StudyPlan, means: &StudyMeans, point: usize, file: &Path) -> Result<PointOutcome> {
     known(plan, point)?;
     let shared = Shared::new(&means.options, &means.meshes());
     let mut outcome = point::run_once(plan, means, &shared, point)?;
@@ -143,7 +143,7 @@ pub fn run_once(plan: &Plan, means: &Means, point: usize, file: &Path) -> Result
     Ok(outcome)
 }
 
-fn known(plan: &Plan, point: usize) -> Result<()> {
+fn known(plan: &StudyPlan, point: usize) -> Result<()> {
     match plan.len() {
         total if point < total => Ok(()),
         total => Err(Error::Text {

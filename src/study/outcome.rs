@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// A point that was run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Outcome {
+pub struct PointOutcome {
     /// Its number, from 0.
     pub point: usize,
     /// Digest of all that decides it: an outcome with another is run again.
@@ -34,7 +34,7 @@ pub struct Outcome {
     pub reused: Vec<String>,
 }
 
-impl Outcome {
+impl PointOutcome {
     /// The same, without what was left out because it could not be taken.
     pub fn value(&self, measure: &str) -> f64 {
         self.values.get(measure).copied().flatten().unwrap_or(f64::NAN)
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn median_and_spread_of_the_repeats() {
         let empty = IndexMap::new();
-        let outcome = Outcome {
+        let outcome = PointOutcome {
             point: 0,
             key: String::new(),
             settings: Vec::new(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::design::{Point, points, setting};
+use super::design::{StudyPoint, points, setting};
 use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
 use crate::error::{Error, Result, name_cure};
@@ -15,7 +15,7 @@ use crate::scene::{self, Scene, Source, document};
 
 /// A study with its points.
 #[derive(Debug)]
-pub struct Plan {
+pub struct StudyPlan {
     /// What its file says.
     pub study: Study,
     /// Its name: that of its folder and file.
@@ -23,7 +23,7 @@ pub struct Plan {
     /// The scene.
     pub scene: PathBuf,
     /// The design's points, then those of the reference.
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<StudyPoint>,
     /// How many are the design's.
     pub(super) designed: usize,
     /// Digests of all that files decide of a point; none where more than files decides.
@@ -32,9 +32,9 @@ pub struct Plan {
     meshed: bool,
 }
 
-impl Plan {
+impl StudyPlan {
     /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
-    pub fn read(file: &Path, only: Option<usize>) -> Result<Plan> {
+    pub fn read(file: &Path, only: Option<usize>) -> Result<StudyPlan> {
         let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
         let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
         let scene = source.folder().join(&study.scene);
@@ -55,7 +55,7 @@ impl Plan {
             for run in &reference.runs {
                 let mut settings = vec!["/output/fields=none".to_string()];
                 settings.extend(study.set.iter().chain(run).map(setting));
-                points.push(Point { values: vec![serde_json::Value::Null; study.axes.len()], settings });
+                points.push(StudyPoint { values: vec![serde_json::Value::Null; study.axes.len()], settings });
             }
         }
         let plain = scene::read(&scene, &[])?;
@@ -74,7 +74,7 @@ impl Plan {
             let old = |msh: &String| mesh::is_earlier_format(&plain.source.folder().join(msh));
             meshed |= part.geo.is_some() || part.msh.as_ref().is_some_and(|msh| old(msh).unwrap_or(false));
         }
-        Ok(Plan { name: name(file), study, scene, points, designed, keys, meshed })
+        Ok(StudyPlan { name: name(file), study, scene, points, designed, keys, meshed })
     }
 
     /// Number of all points, those of the reference included.
@@ -143,7 +143,7 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
 }
 
 /// Settings, measures, the program's version, the scene's text and those of the files it names, with all they include.
-fn key(study: &Study, point: &Point, scene: &Scene) -> Option<String> {
+fn key(study: &Study, point: &StudyPoint, scene: &Scene) -> Option<String> {
     let mut hash = Sha256::new();
     let mut add = |part: &[u8]| {
         hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other

@@ -8,15 +8,15 @@ use indexmap::IndexMap;
 
 use super::file::Process;
 use super::gauge::Gauge;
-use super::outcome::Outcome;
-use super::plan::Plan;
+use super::outcome::PointOutcome;
+use super::plan::StudyPlan;
 use crate::error::{Error, Result};
 use crate::output::write_json;
 use crate::run::{self, Event, Options, Shared};
 
 /// How points are run.
 #[derive(Debug, Clone)]
-pub struct Means {
+pub struct StudyMeans {
     /// Where everything goes.
     pub out: PathBuf,
     /// The study's file, for processes of their own.
@@ -29,7 +29,7 @@ pub struct Means {
     pub threads: usize,
 }
 
-impl Means {
+impl StudyMeans {
     /// The folder of a point's results.
     pub(super) fn folder(&self, point: usize) -> PathBuf {
         self.out.join("points").join(format!("{point:04}"))
@@ -47,15 +47,25 @@ impl Means {
 }
 
 /// The outcome of a point that was run before, if nothing that decides it has changed.
-pub(super) fn earlier(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Option<Outcome> {
+pub(super) fn earlier(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    shared: &Shared,
+    point: usize,
+) -> Option<PointOutcome> {
     let text = std::fs::read_to_string(means.file(point)).ok()?;
-    let outcome: Outcome = serde_json::from_str(&text).ok()?;
+    let outcome: PointOutcome = serde_json::from_str(&text).ok()?;
     (outcome.key == plan.key(shared, point).ok()??).then_some(outcome)
 }
 
 /// Runs a point as often as the study says and keeps its outcome.
-pub(super) fn run_point(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Result<Outcome> {
-    let mut outcome: Option<Outcome> = None;
+pub(super) fn run_point(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    shared: &Shared,
+    point: usize,
+) -> Result<PointOutcome> {
+    let mut outcome: Option<PointOutcome> = None;
     for repeat in 0..plan.study.repeat {
         let once = match plan.study.process {
             Process::Shared => run_once(plan, means, shared, point)?,
@@ -80,7 +90,12 @@ pub(super) fn run_point(plan: &Plan, means: &Means, shared: &Shared, point: usiz
 }
 
 /// One run in this process. What is wrong with the point is its outcome; what is wrong with the machine is an error.
-pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize) -> Result<Outcome> {
+pub(super) fn run_once(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    shared: &Shared,
+    point: usize,
+) -> Result<PointOutcome> {
     let settings = plan.points[point].settings.clone();
     let key = plan.key(shared, point)?.unwrap_or_default();
     let options = Options {
@@ -110,7 +125,7 @@ pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize
     };
     let known = |value: f64| value.is_finite().then_some(value);
     let values = gauge.values().into_iter().map(|(name, value)| (name, known(value))).collect();
-    Ok(Outcome {
+    Ok(PointOutcome {
         point,
         key,
         settings,
@@ -128,7 +143,7 @@ pub(super) fn run_once(plan: &Plan, means: &Means, shared: &Shared, point: usize
 }
 
 /// One run in a process of its own, timed from outside.
-fn run_apart(means: &Means, point: usize, repeat: usize) -> Result<Outcome> {
+fn run_apart(means: &StudyMeans, point: usize, repeat: usize) -> Result<PointOutcome> {
     let program = std::env::current_exe().map_err(Error::io("find", "the program"))?;
     let once = means.out.join("points").join(format!(".{point:04}-{repeat}.json"));
     let mut command = Command::new(program);
@@ -151,7 +166,7 @@ fn run_apart(means: &Means, point: usize, repeat: usize) -> Result<Outcome> {
     Ok(outcome)
 }
 
-fn read(file: &Path) -> Option<Outcome> {
+fn read(file: &Path) -> Option<PointOutcome> {
     serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()
 }
 

@@ -6,9 +6,9 @@ use indexmap::IndexMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::outcome::Outcome;
-use super::plan::Plan;
-use super::point::Means;
+use super::outcome::PointOutcome;
+use super::plan::StudyPlan;
+use super::point::StudyMeans;
 use super::reference::Limit;
 use crate::error::Result;
 use crate::output::{write_json, write_whole};
@@ -29,12 +29,12 @@ struct File<'a> {
     jobs: usize,
     threads: usize,
     references: &'a Limits,
-    points: Vec<Row<'a>>,
-    reference_runs: &'a [Outcome],
+    points: Vec<TableRow<'a>>,
+    reference_runs: &'a [PointOutcome],
 }
 
 #[derive(Serialize)]
-struct Row<'a> {
+struct TableRow<'a> {
     axes: IndexMap<&'a str, &'a Value>,
     /// Relative errors of the measures; null where there is no reference or no value.
     errors: IndexMap<&'a str, Option<f64>>,
@@ -42,11 +42,11 @@ struct Row<'a> {
     seconds_median: f64,
     seconds_spread: f64,
     #[serde(flatten)]
-    outcome: &'a Outcome,
+    outcome: &'a PointOutcome,
 }
 
 /// References of the measures: the numbers of the file, else the limits of the reference runs.
-pub(super) fn limits(plan: &Plan, references: &[Outcome]) -> Limits {
+pub(super) fn limits(plan: &StudyPlan, references: &[PointOutcome]) -> Limits {
     let ratio = plan.study.reference.as_ref().map_or(2.0, |reference| reference.ratio);
     let of = |(name, measure): (&String, &super::Measure)| {
         let values: Vec<f64> = references.iter().map(|run| run.value(name)).collect();
@@ -57,7 +57,7 @@ pub(super) fn limits(plan: &Plan, references: &[Outcome]) -> Limits {
 }
 
 /// The relative error of a measure: a norm is its own.
-fn error(plan: &Plan, limits: &Limits, outcome: &Outcome, measure: &str) -> Option<f64> {
+fn error(plan: &StudyPlan, limits: &Limits, outcome: &PointOutcome, measure: &str) -> Option<f64> {
     let value = outcome.value(measure);
     let error = match (plan.study.measures.get(measure), limits.get(measure)) {
         (Some(super::Measure::Error { .. }), _) => value,
@@ -69,7 +69,12 @@ fn error(plan: &Plan, limits: &Limits, outcome: &Outcome, measure: &str) -> Opti
 }
 
 /// Writes both files.
-pub(super) fn write(plan: &Plan, means: &Means, limits: &Limits, outcomes: &[Outcome]) -> Result<()> {
+pub(super) fn write(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    limits: &Limits,
+    outcomes: &[PointOutcome],
+) -> Result<()> {
     let (points, references) = outcomes.split_at(plan.designed.min(outcomes.len()));
     let rows = points.iter().map(|outcome| {
         let [seconds_min, seconds_median, seconds_spread] = outcome.times();
@@ -77,7 +82,7 @@ pub(super) fn write(plan: &Plan, means: &Means, limits: &Limits, outcomes: &[Out
         let errors = plan.study.measures.keys().map(|name| {
             (name.as_str(), error(plan, limits, outcome, name).filter(|error| error.is_finite()))
         });
-        Row {
+        TableRow {
             axes: axes.collect(),
             errors: errors.collect(),
             seconds_min,
@@ -106,8 +111,8 @@ pub(super) fn write(plan: &Plan, means: &Means, limits: &Limits, outcomes: &[Out
     write_whole(&means.out.join("study.csv"), csv(plan, limits, points).as_bytes())
 }
 
-fn csv(plan: &Plan, limits: &Limits, points: &[Outcome]) -> String {
-    let union = |names: &dyn Fn(&Outcome) -> Vec<String>| {
+fn csv(plan: &StudyPlan, limits: &Limits, points: &[PointOutcome]) -> String {
+    let union = |names: &dyn Fn(&PointOutcome) -> Vec<String>| {
         let mut all: Vec<String> = Vec::new();
         for name in points.iter().flat_map(names) {
             if !all.contains(&name) {

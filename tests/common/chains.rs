@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // each test file uses a part of it
 
-use midplane::coupling::{Coupling, Gap, Kind, LawPoint, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side};
 use midplane::error::Result;
 use midplane::mesh::Edge;
 
@@ -77,15 +77,15 @@ impl Curve {
     }
 }
 
-pub const ALL: [(Kind, Points); 4] = [
-    (Kind::Projected, Points::Gauss),
-    (Kind::ProjectedLinear, Points::Gauss),
-    (Kind::Pointwise, Points::Gauss),
-    (Kind::Pointwise, Points::Lobatto),
+pub const ALL: [(JumpScheme, Points); 4] = [
+    (JumpScheme::Projected, Points::Gauss),
+    (JumpScheme::ProjectedLinear, Points::Gauss),
+    (JumpScheme::Pointwise, Points::Gauss),
+    (JumpScheme::Pointwise, Points::Lobatto),
 ];
 
 /// Joins curves; nodes of B are numbered after those of A.
-pub fn join(a: &[&Curve], b: &[&Curve], (kind, points): (Kind, Points)) -> Result<Coupling> {
+pub fn join(a: &[&Curve], b: &[&Curve], (kind, points): (JumpScheme, Points)) -> Result<Coupling> {
     join_with(a, b, Scheme { kind, points, gap: Gap::Closed })
 }
 

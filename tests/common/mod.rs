@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use indexmap::IndexMap;
-use midplane::history::{Clock, Equations, History, Increment, Means, State, Totals};
+use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};
 use midplane::mesh::{Cells, Edge, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::scene;
@@ -131,7 +131,7 @@ pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
 pub struct March {
     pub iterations: Vec<usize>,
     pub load_factors: Vec<f64>,
-    pub states: Vec<State>,
+    pub states: Vec<ModelState>,
     pub end: midplane::error::Result<Totals>,
 }
 
@@ -164,7 +164,7 @@ pub fn each_increment(
 }
 
 /// All states of a scene after its increments, and the counts.
-pub fn solve(problem: &Problem) -> (Vec<State>, Totals) {
+pub fn solve(problem: &Problem) -> (Vec<ModelState>, Totals) {
     let mut states = Vec::new();
     let totals = each_increment(problem, |increment, history| {
         if increment.number > 0 {
@@ -175,7 +175,7 @@ pub fn solve(problem: &Problem) -> (Vec<State>, Totals) {
 }
 
 /// Displacement of a node of a body.
-pub fn displacement(problem: &Problem, state: &State, body: usize, node: usize) -> [f64; 2] {
+pub fn displacement(problem: &Problem, state: &ModelState, body: usize, node: usize) -> [f64; 2] {
     let dof = 2 * (problem.model.bodies[body].first_node + node);
     [state.snapshot.u[dof], state.snapshot.u[dof + 1]]
 }

@@ -1,8 +1,8 @@
 //! What the tests of the laws share: reference curves, parameter sets, a fixed stream of random numbers.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)] // each test takes what it needs
 
-use midplane::law::path::{Path, Row, drive};
-use midplane::law::{Cracking, Law, State, Stepping};
+use midplane::law::path::{LawPath, PathRow, drive};
+use midplane::law::{Cracking, Integration, Law, State};
 use nalgebra::Vector2;
 use serde_json::Value;
 
@@ -35,7 +35,7 @@ pub fn close(value: f64, expected: f64, tolerance: f64, what: &str) {
 /// An independent implementation's curve, kept beside the tests.
 pub struct Reference {
     pub law: Law,
-    pub path: Path,
+    pub path: LawPath,
     pub file: Value,
 }
 
@@ -78,12 +78,12 @@ impl Reference {
         Reference { law, path: serde_json::from_str(&text).unwrap(), file }
     }
 
-    pub fn drive(&self, stepping: Stepping) -> Vec<Row> {
+    pub fn drive(&self, stepping: Integration) -> Vec<PathRow> {
         drive(&self.law, &self.path, &State::default(), stepping).unwrap()
     }
 
     /// Largest errors of σ [MPa], τ [MPa] and W/G_I over the stored points.
-    pub fn errors(&self, rows: &[Row]) -> [f64; 3] {
+    pub fn errors(&self, rows: &[PathRow]) -> [f64; 3] {
         let points = self.file["points"].as_array().unwrap();
         assert_eq!(rows.len(), points.len());
         let energy = self.file["parameters"]["gf1"].as_f64().unwrap();

@@ -13,7 +13,9 @@ use crate::error::Result;
 use crate::history::{Clock, memory};
 use crate::problem::Problem;
 use crate::scene::{Solution, Strategy, Tangent};
-use crate::solver::{Continuum, Linear, Method, Plan, Settings, Shelf, System, TooLarge};
+use crate::solver::{
+    Continuum, FactorPlan, Linear, Method, NewtonSettings, SubdomainCache, System, TooLarge,
+};
 
 /// Bodies of linear scenes are shared with other runs if at most so many of their dofs are on joints.
 const SHARED: usize = 12_000;
@@ -27,7 +29,7 @@ pub struct Means {
     /// Memory [bytes]; a run that needs more is refused before its first factor.
     pub memory: Option<u64>,
     /// Bodies shared with other runs.
-    pub shelf: Option<Arc<Shelf>>,
+    pub shelf: Option<Arc<SubdomainCache>>,
 }
 
 impl Default for Means {
@@ -57,7 +59,7 @@ pub struct Equations<'a> {
 #[derive(Debug)]
 enum Matrices {
     /// One matrix of bodies and interfaces.
-    Joined(Pattern, Symmetric, Plan),
+    Joined(Pattern, Symmetric, FactorPlan),
     /// Bodies condensed on their interfaces.
     Condensed(Continuum),
     /// The matrix of the bodies, to which the interfaces are added in every iteration.
@@ -167,21 +169,26 @@ impl<'a> Equations<'a> {
 }
 
 /// The elimination ordering of a matrix, refused if its factor does not fit.
-fn order(problem: &Problem, pattern: &Pattern, available: Option<u64>, clock: &mut Clock) -> Result<Plan> {
+fn order(
+    problem: &Problem,
+    pattern: &Pattern,
+    available: Option<u64>,
+    clock: &mut Clock,
+) -> Result<FactorPlan> {
     clock.begin("order");
     let dofs = problem.model.dofs();
-    let plan = Plan::analyse(pattern, &problem.model.coordinates());
+    let plan = FactorPlan::analyse(pattern, &problem.model.coordinates());
     let plan = plan.map_err(|TooLarge| memory::too_large(dofs))?;
     let needed = memory::needed(plan.bytes(), pattern.rows.len(), dofs);
     memory::refuse(dofs, plan.entries(), needed, available)?;
     Ok(plan)
 }
 
-fn settings(solution: &Solution) -> Settings {
+fn settings(solution: &Solution) -> NewtonSettings {
     let Solution { tolerance, iterations, tangent, .. } = *solution;
     let initial_tangent = tangent == Tangent::Initial;
     let patience = if initial_tangent { usize::MAX } else { PATIENCE };
-    Settings { tolerance, iterations, patience, initial_tangent }
+    NewtonSettings { tolerance, iterations, patience, initial_tangent }
 }
 
 /// Law stiffness of a joint's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies

@@ -14,7 +14,7 @@ use super::laws::Laws;
 use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
 use crate::history::converged::{Converged, PointResponse};
-use crate::history::loading::Load;
+use crate::history::loading::StepLoad;
 use crate::law;
 use crate::output::Snapshot;
 use crate::solver::{Affine, Form};
@@ -122,7 +122,7 @@ fn over_the_middle<F: Form>(
 }
 
 /// The relative out-of-balance force of the last accepted state.
-pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Load) -> Option<f64> {
+pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &StepLoad) -> Option<f64> {
     let View { problem, prepared, form, .. } = *view;
     let target = target(form, prepared, load).ok()?;
     let force = |&k: &usize| {

@@ -6,7 +6,7 @@ use super::Make;
 use super::newton::NewtonEngine;
 use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
-use crate::solver::{Base, Blocks, Condensation, Continuum, Dual, Plain, Settings};
+use crate::solver::{Base, Condensation, Condensed, Continuum, FloatingSubdomains, NewtonSettings, Primal};
 
 /// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
 pub(super) fn bases<'a>(
@@ -42,8 +42,8 @@ pub(super) fn condensed<'a>(
     continuum: &'a Continuum,
     asked: &'a [usize],
     stiffness: &'a [Vec<f64>],
-    settings: Settings,
-) -> NewtonEngine<'a, Dual<'a>> {
+    settings: NewtonSettings,
+) -> NewtonEngine<'a, Condensed<'a>> {
     let size: usize = asked.iter().map(|&k| problem.model.joints[k].size()).sum();
     let sound: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.joints))
         .map(|((law, _), joint)| {
@@ -54,7 +54,7 @@ pub(super) fn condensed<'a>(
     let mut base = bases(problem, continuum, stiffness);
     let make = move |held: &[bool]| {
         let (base, anew) = base(held)?;
-        Ok((Dual::new(base, asked, stiffness, &sound), anew))
+        Ok((Condensed::new(base, asked, stiffness, &sound), anew))
     };
     NewtonEngine::new(problem, settings, Box::new(make), size)
 }
@@ -64,15 +64,15 @@ pub(super) fn blocks<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,
     stiffness: &'a [Vec<f64>],
-    settings: Settings,
-) -> NewtonEngine<'a, Blocks<'a>> {
+    settings: NewtonSettings,
+) -> NewtonEngine<'a, FloatingSubdomains<'a>> {
     let joints = &problem.model.joints;
     let mut condense = condensations(continuum);
     let make = move |held: &[bool]| {
         let (condensation, anew) = condense(held)?;
-        Ok((Blocks::new(continuum, condensation, joints, stiffness, held)?, anew))
+        Ok((FloatingSubdomains::new(continuum, condensation, joints, stiffness, held)?, anew))
     };
-    NewtonEngine::new(problem, settings, Box::new(make), Blocks::unknowns(continuum, joints))
+    NewtonEngine::new(problem, settings, Box::new(make), FloatingSubdomains::unknowns(continuum, joints))
 }
 
 /// On all displacements.
@@ -82,10 +82,10 @@ pub(super) fn plain<'a>(
     k: &'a Symmetric,
     asked: &'a [usize],
     stiffness: &'a [Vec<f64>],
-    settings: Settings,
-) -> NewtonEngine<'a, Plain<'a>> {
+    settings: NewtonSettings,
+) -> NewtonEngine<'a, Primal<'a>> {
     let make = move |held: &[bool]| {
-        Ok((Plain::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
+        Ok((Primal::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
     };
     NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())
 }

@@ -4,10 +4,10 @@ use super::ON;
 use super::laws::Laws;
 use super::view::{ViewMut, target};
 use crate::history::converged::Converged;
-use crate::history::loading::Load;
+use crate::history::loading::StepLoad;
 use crate::law;
 use crate::problem::Problem;
-use crate::solver::{Form, Settings};
+use crate::solver::{Form, NewtonSettings};
 
 /// Intact points of softening laws that crack in a part after others do; none if all crack at once.
 pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged) -> Option<Vec<Vec<bool>>> {
@@ -35,8 +35,8 @@ pub(super) fn crack<F: Form>(
     view: &mut ViewMut<F>,
     old: &[Vec<law::State>],
     found: &Converged,
-    end: &Load,
-    settings: Settings,
+    end: &StepLoad,
+    settings: NewtonSettings,
 ) -> Option<bool> {
     let problem = view.problem;
     let Some(held) = late(problem, old, found) else { return Some(true) };
@@ -63,9 +63,9 @@ pub(super) fn crack<F: Form>(
 pub(super) fn first_onset<F: Form>(
     view: &mut ViewMut<F>,
     old: &[Vec<law::State>],
-    [load, now]: [&Load; 2],
+    [load, now]: [&StepLoad; 2],
     end: Option<Vec<f64>>,
-    settings: Settings,
+    settings: NewtonSettings,
 ) -> Option<f64> {
     let target_of = |load| target(&*view.form, view.prepared, load).ok();
     let (target, before) = (target_of(load)?, target_of(now)?);

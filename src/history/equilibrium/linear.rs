@@ -1,11 +1,11 @@
 //! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
 
-use super::{Ahead, Engine, Estimate, Failure, Make, Path, Search, Viscous, Way};
+use super::{Ahead, Engine, Estimate, Failure, Make, PathSearch, Search, Viscous, Way};
 use crate::assembly::Joint;
 use crate::history::converged::{Converged, InterfaceResponse};
-use crate::history::loading::{Forces, Ledger, Load};
-use crate::history::state::State;
-use crate::solver::{Factored, Measure, NotPositiveDefinite, Ramp, Solution};
+use crate::history::loading::{Ledger, LoadForces, StepLoad};
+use crate::history::state::ModelState;
+use crate::solver::{Factored, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp};
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
 /// load level two at most.
@@ -14,7 +14,7 @@ pub(super) struct LinearEngine<'a, F> {
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
     /// The step's loads, if they are affine.
-    ends: Option<Ends>,
+    ends: Option<RampEnds>,
 }
 
 impl<'a, F> LinearEngine<'a, F> {
@@ -26,14 +26,14 @@ impl<'a, F> LinearEngine<'a, F> {
 
 /// The answer to a load.
 struct Answered {
-    solution: Solution,
+    solution: NodalSolution,
     /// Jumps (n, t) of every joint, law point by law point.
     jumps: Vec<Vec<f64>>,
     measured: Vec<f64>,
 }
 
 impl Answered {
-    fn new(solution: Solution, joints: &[Joint], measures: &[Measure]) -> Answered {
+    fn new(solution: NodalSolution, joints: &[Joint], measures: &[LinearMeasure]) -> Answered {
         let jumps = joints.iter().map(|joint| joint.jumps(&solution.u)).collect();
         let measured = measures.iter().map(|measure| measure.of(&solution)).collect();
         Answered { solution, jumps, measured }
@@ -47,13 +47,13 @@ impl Answered {
 /// ```
 ///
 /// and so are jumps and measures, with which an increment whose fields are not stored can do.
-struct Ends {
+struct RampEnds {
     ramp: Ramp,
-    measures: Vec<Measure>,
+    measures: Vec<LinearMeasure>,
     answers: [Option<Answered>; 2],
 }
 
-impl Ends {
+impl RampEnds {
     /// The equilibrium at a load level, with displacements if it is to be `complete`. Its backward error is the larger of both
     /// ends', relative to what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding
     /// of the sum.
@@ -79,7 +79,7 @@ impl Ends {
         };
         let (a, b) = (&start.solution, &end.solution);
         let backward_error = a.backward_error.max(b.backward_error);
-        let solution = || Solution {
+        let solution = || NodalSolution {
             u: between(&a.u, &b.u),
             reactions: between(&a.reactions, &b.reactions),
             backward_error,
@@ -92,7 +92,7 @@ impl Ends {
 
 /// What a linear scene tells the march of an equilibrium.
 fn found(
-    solution: Option<Solution>,
+    solution: Option<NodalSolution>,
     backward_error: f64,
     jumps: Vec<Vec<f64>>,
     ledger: Option<Ledger>,
@@ -128,9 +128,9 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         Ok(anew)
     }
 
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]) {
         let ends =
-            |ramp: &Ramp| Ends { ramp: ramp.clone(), measures: measures.to_vec(), answers: [None, None] };
+            |ramp: &Ramp| RampEnds { ramp: ramp.clone(), measures: measures.to_vec(), answers: [None, None] };
         self.ends = ramp.map(ends);
     }
 
@@ -138,7 +138,13 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         true
     }
 
-    fn solve(&mut self, _: &State, load: &Load, _: Ahead, complete: bool) -> Result<Converged, Failure> {
+    fn solve(
+        &mut self,
+        _: &ModelState,
+        load: &StepLoad,
+        _: Ahead,
+        complete: bool,
+    ) -> Result<Converged, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
         let usable = |found: &Converged| found.residuals[0] <= UNUSABLE;
         let between =
@@ -146,7 +152,7 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if let Some(found) = between.filter(usable) {
             return Ok(found);
         }
-        let Forces { loaded, prescribed, .. } = load.forces();
+        let LoadForces { loaded, prescribed, .. } = load.forces();
         let solution = factored.refined(loaded, prescribed);
         let Answered { solution, jumps, .. } = Answered::new(solution, self.joints, &[]);
         let backward_error = solution.backward_error;
@@ -154,31 +160,31 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
     }
 
-    fn creep(&mut self, _: &State, _: &Load, _: Viscous, _: bool) -> Result<Converged, Failure> {
+    fn creep(&mut self, _: &ModelState, _: &StepLoad, _: Viscous, _: bool) -> Result<Converged, Failure> {
         Err(Failure::Unusable(f64::INFINITY)) // nothing softens
     }
 
-    fn estimate(&mut self, _: &State, _: &Converged, _: Way) -> Option<Estimate> {
+    fn estimate(&mut self, _: &ModelState, _: &Converged, _: Way) -> Option<Estimate> {
         None
     }
 
-    fn is_reached(&mut self, _: &State, _: &Converged, _: &Load) -> bool {
+    fn is_reached(&mut self, _: &ModelState, _: &Converged, _: &StepLoad) -> bool {
         true
     }
 
-    fn onset(&mut self, _: &State, _: &Load, _: &Load, _: f64) -> Option<f64> {
+    fn onset(&mut self, _: &ModelState, _: &StepLoad, _: &StepLoad, _: f64) -> Option<f64> {
         None
     }
 
-    fn imbalance(&self, _: &State, _: &Load) -> f64 {
+    fn imbalance(&self, _: &ModelState, _: &StepLoad) -> f64 {
         0.0
     }
 
-    fn follow(&mut self, _: &State, _: f64, _: &Path) -> Result<(Converged, f64), Failure> {
+    fn follow(&mut self, _: &ModelState, _: f64, _: &PathSearch) -> Result<(Converged, f64), Failure> {
         Err(Failure::Unusable(f64::INFINITY)) // nothing dissipates
     }
 
-    fn recover(&self, _: &Load) -> Option<Solution> {
+    fn recover(&self, _: &StepLoad) -> Option<NodalSolution> {
         None
     }
 
@@ -232,7 +238,7 @@ mod tests {
         for (increments, solves) in [(1, 1), (2, 2), (51, 2)] {
             let spring = Spring::default();
             let ramp = Ramp { force: [vec![1.0], vec![3.0]], prescribed: [vec![0.0], vec![0.0]] };
-            let mut ends = Ends { ramp, measures: Vec::new(), answers: [None, None] };
+            let mut ends = RampEnds { ramp, measures: Vec::new(), answers: [None, None] };
             for k in 1..=increments {
                 let level = k as f64 / increments as f64;
                 let found = ends.at(&spring, &[], level, true).unwrap();

@@ -17,9 +17,9 @@ pub use equations::{Equations, Means};
 use serde::{Deserialize, Serialize};
 
 use super::converged::Converged;
-use super::loading::Load;
-use super::state::State;
-use crate::solver::{Measure, NotPositiveDefinite, Ramp, Solution, Unconverged};
+use super::loading::StepLoad;
+use super::state::ModelState;
+use crate::solver::{LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp, Unconverged};
 
 /// Why an increment has no equilibrium.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ pub(in crate::history) struct Viscous {
 
 /// A step on the path of equilibria.
 #[derive(Debug)]
-pub(in crate::history) struct Path<'a> {
+pub(in crate::history) struct PathSearch<'a> {
     /// The step's loads.
     pub(in crate::history) ramp: &'a Ramp,
     /// Energy to dissipate; none: as far as the predicted change of the jumps.
@@ -90,7 +90,7 @@ pub(in crate::history) trait Engine {
     fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite>;
 
     /// Prepares a step whose loads are affine in the load level, so that increments can do without displacements.
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]);
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]);
 
     /// True if the jumps of all joints are found without displacements, those of elastic ones too.
     fn finds_all_jumps(&self) -> bool {
@@ -101,8 +101,8 @@ pub(in crate::history) trait Engine {
     /// asked for (`complete`) or needed.
     fn solve(
         &mut self,
-        state: &State,
-        load: &Load,
+        state: &ModelState,
+        load: &StepLoad,
         ahead: Ahead,
         complete: bool,
     ) -> Result<Converged, Failure>;
@@ -110,32 +110,37 @@ pub(in crate::history) trait Engine {
     /// A backward Euler step of joints with a viscosity, under a load, from the last accepted state.
     fn creep(
         &mut self,
-        state: &State,
-        load: &Load,
+        state: &ModelState,
+        load: &StepLoad,
         viscous: Viscous,
         complete: bool,
     ) -> Result<Converged, Failure>;
 
     /// Error of what was found last, from the laws in the middle of the way there; none if nothing cracks, slides, opens or
     /// closes, so that the way is straight.
-    fn estimate(&mut self, state: &State, found: &Converged, way: Way) -> Option<Estimate>;
+    fn estimate(&mut self, state: &ModelState, found: &Converged, way: Way) -> Option<Estimate>;
 
     /// True if small parts lead to what was found last too: points that crack in it after others have reached their strength
     /// (one linear system).
-    fn is_reached(&mut self, state: &State, found: &Converged, end: &Load) -> bool;
+    fn is_reached(&mut self, state: &ModelState, found: &Converged, end: &StepLoad) -> bool;
 
     /// Fraction of the way to a load, from that of the last accepted state, at which the first intact point of a softening law
     /// reaches its strength; none if none does.
-    fn onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64>;
+    fn onset(&mut self, state: &ModelState, load: &StepLoad, now: &StepLoad, ahead: f64) -> Option<f64>;
 
     /// Relative out-of-balance force of the last accepted state under a load, without any viscosity.
-    fn imbalance(&self, state: &State, load: &Load) -> f64;
+    fn imbalance(&self, state: &ModelState, load: &StepLoad) -> f64;
 
     /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
-    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Converged, f64), Failure>;
+    fn follow(
+        &mut self,
+        state: &ModelState,
+        level: f64,
+        path: &PathSearch,
+    ) -> Result<(Converged, f64), Failure>;
 
     /// Displacements and reactions of the last accepted increment, if the engine goes without.
-    fn recover(&self, load: &Load) -> Option<Solution>;
+    fn recover(&self, load: &StepLoad) -> Option<NodalSolution>;
 
     /// Where the search stands, to be returned to.
     fn search(&self) -> Search;
@@ -171,8 +176,8 @@ pub(in crate::history) struct Estimate {
 /// The way of a part: load in its middle, and those of the step where its load factor was found along a path.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::history) struct Way<'a> {
-    pub(in crate::history) middle: &'a Load<'a>,
-    pub(in crate::history) step: Option<&'a [Load<'a>; 2]>,
+    pub(in crate::history) middle: &'a StepLoad<'a>,
+    pub(in crate::history) step: Option<&'a [StepLoad<'a>; 2]>,
 }
 
 /// Factors for a set of supports; true if something was factored anew.

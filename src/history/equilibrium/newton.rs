@@ -3,13 +3,16 @@
 use super::laws::{Laws, may_lag};
 use super::strategy::active;
 use super::view::{View, ViewMut, target};
-use super::{Ahead, Engine, Estimate, Failure, Make, Path, Search, Viscous, Way, estimate, late, viscosity};
+use super::{
+    Ahead, Engine, Estimate, Failure, Make, PathSearch, Search, Viscous, Way, estimate, late, viscosity,
+};
 use crate::history::converged::{Converged, InterfaceResponse, PointResponse};
-use crate::history::loading::{Forces, Ledger, Load};
-use crate::history::state::State;
+use crate::history::loading::{Ledger, LoadForces, StepLoad};
+use crate::history::state::ModelState;
 use crate::problem::Problem;
 use crate::solver::{
-    Affine, Constraint, Form, Iterate, Measure, Newton, NotPositiveDefinite, Point, Ramp, Settings, Solution,
+    Affine, Constraint, Form, Iterate, LinearMeasure, Newton, NewtonSettings, NodalSolution,
+    NotPositiveDefinite, PathPoint, Ramp,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -24,7 +27,7 @@ pub(super) struct NewtonEngine<'a, F> {
     problem: &'a Problem,
     /// All interfaces are elastic.
     linear: bool,
-    settings: Settings,
+    settings: NewtonSettings,
     make: Make<'a, F>,
     form: Option<(Vec<bool>, F, Newton)>,
     search: Search,
@@ -37,7 +40,12 @@ pub(super) struct NewtonEngine<'a, F> {
 
 impl<'a, F> NewtonEngine<'a, F> {
     /// With a form of so many unknowns.
-    pub(super) fn new(problem: &'a Problem, settings: Settings, make: Make<'a, F>, size: usize) -> Self {
+    pub(super) fn new(
+        problem: &'a Problem,
+        settings: NewtonSettings,
+        make: Make<'a, F>,
+        size: usize,
+    ) -> Self {
         let zero = || vec![0.0; size];
         let search = Search { before: zero(), unknowns: zero(), first: true, ..Search::default() };
         let (linear, found) = (active(problem).is_empty(), (zero(), Vec::new(), Vec::new()));
@@ -80,7 +88,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         &mut self,
         [near, mut start]: [Vec<f64>; 2],
         laws: &Laws,
-        load: &Load,
+        load: &StepLoad,
         complete: bool,
     ) -> Result<Converged, Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
@@ -96,7 +104,7 @@ impl<F: Form> NewtonEngine<'_, F> {
             if !complete {
                 break (iterate, None);
             }
-            let Forces { loaded, prescribed, .. } = load.forces();
+            let LoadForces { loaded, prescribed, .. } = load.forces();
             let solution = form.recover(&iterate.x, &iterate.forces, loaded, prescribed);
             let defect = form.defect(&iterate.x, &solution.u);
             let left = form.error(&defect, &iterate.x, &iterate.forces, &target);
@@ -119,7 +127,7 @@ impl<F: Form> NewtonEngine<'_, F> {
     /// Keeps a solution for its acceptance.
     fn found(
         &mut self,
-        solution: Option<Solution>,
+        solution: Option<NodalSolution>,
         ledger: Option<Ledger>,
         residuals: Vec<f64>,
         laws: &Laws,
@@ -160,7 +168,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         Ok(anew)
     }
 
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) {
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]) {
         if let Some((_, form, _)) = &mut self.form {
             self.prepared = form.prepare(ramp, measures);
             self.measured = self.prepared && !measures.is_empty();
@@ -171,8 +179,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn solve(
         &mut self,
-        state: &State,
-        load: &Load,
+        state: &ModelState,
+        load: &StepLoad,
         ahead: Ahead,
         complete: bool,
     ) -> Result<Converged, Failure> {
@@ -185,8 +193,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn creep(
         &mut self,
-        state: &State,
-        load: &Load,
+        state: &ModelState,
+        load: &StepLoad,
         Viscous { viscosity, ahead, strict }: Viscous,
         complete: bool,
     ) -> Result<Converged, Failure> {
@@ -201,7 +209,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
-        self.settings = Settings { tolerance, initial_tangent: false, ..settings };
+        self.settings = NewtonSettings { tolerance, initial_tangent: false, ..settings };
         let mut found = self.solve_from(starts.clone(), &laws, load, complete);
         if let Err(Failure::Unconverged(first)) = &mut found
             && may_lag(self.problem, viscosity)
@@ -219,11 +227,11 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         found
     }
 
-    fn estimate(&mut self, state: &State, found: &Converged, way: Way) -> Option<Estimate> {
+    fn estimate(&mut self, state: &ModelState, found: &Converged, way: Way) -> Option<Estimate> {
         estimate::error_of(&self.view()?, &state.snapshot.states, found, way)
     }
 
-    fn is_reached(&mut self, state: &State, found: &Converged, end: &Load) -> bool {
+    fn is_reached(&mut self, state: &ModelState, found: &Converged, end: &StepLoad) -> bool {
         let settings = self.settings;
         let reached = self
             .view_mut()
@@ -231,28 +239,33 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         reached.unwrap_or(false)
     }
 
-    fn onset(&mut self, state: &State, load: &Load, now: &Load, ahead: f64) -> Option<f64> {
+    fn onset(&mut self, state: &ModelState, load: &StepLoad, now: &StepLoad, ahead: f64) -> Option<f64> {
         let end = if ahead > 0.0 { Some(self.onwards(ahead)) } else { None };
         let settings = self.settings;
         late::first_onset(&mut self.view_mut()?, &state.snapshot.states, [load, now], end, settings)
     }
 
-    fn imbalance(&self, state: &State, load: &Load) -> f64 {
+    fn imbalance(&self, state: &ModelState, load: &StepLoad) -> f64 {
         self.view()
             .and_then(|view| estimate::imbalance(&view, &state.snapshot, load))
             .unwrap_or(f64::INFINITY)
     }
 
-    fn follow(&mut self, state: &State, level: f64, path: &Path) -> Result<(Converged, f64), Failure> {
+    fn follow(
+        &mut self,
+        state: &ModelState,
+        level: f64,
+        path: &PathSearch,
+    ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let laws = Laws::alone(self.problem, &state.snapshot.states);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
-        let from = Point { x: self.search.unknowns.clone(), level };
+        let from = PathPoint { x: self.search.unknowns.clone(), level };
         let start = if path.ahead > 0.0 {
             let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
             let x = self.search.unknowns.iter().zip(&self.search.before).map(extrapolate).collect();
-            Ok(Point { x, level: level + path.ahead * path.last })
+            Ok(PathPoint { x, level: level + path.ahead * path.last })
         } else {
             match path.amount {
                 Some(amount) => newton.leave(form, &laws, &from, &load, amount, self.settings),
@@ -275,9 +288,9 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         Ok((found, level))
     }
 
-    fn recover(&self, load: &Load) -> Option<Solution> {
+    fn recover(&self, load: &StepLoad) -> Option<NodalSolution> {
         let (_, form, _) = self.form.as_ref()?;
-        let Forces { loaded, prescribed, .. } = load.forces();
+        let LoadForces { loaded, prescribed, .. } = load.forces();
         Some(form.recover(&self.search.unknowns, &self.search.forces, loaded, prescribed))
     }
 

@@ -1,7 +1,7 @@
 //! A form of the equilibrium as the estimates of a part see it.
 
 use super::Failure;
-use crate::history::loading::{Forces, Load};
+use crate::history::loading::{LoadForces, StepLoad};
 use crate::problem::Problem;
 use crate::solver::{Form, Newton};
 
@@ -28,11 +28,11 @@ pub(super) struct ViewMut<'a, F> {
 }
 
 /// b of a load on a form whose loads are prepared, or not.
-pub(super) fn target(form: &impl Form, prepared: bool, load: &Load) -> Result<Vec<f64>, Failure> {
+pub(super) fn target(form: &impl Form, prepared: bool, load: &StepLoad) -> Result<Vec<f64>, Failure> {
     let target = match prepared {
         true => form.prepared(load.level),
         false => {
-            let Forces { loaded, prescribed, .. } = load.forces();
+            let LoadForces { loaded, prescribed, .. } = load.forces();
             form.target(loaded, prescribed)
         }
     };

@@ -16,7 +16,7 @@ use super::{Coulomb, OPEN, SLIP, STICK};
 use crate::law::{N, T};
 
 /// End of a way.
-pub(super) struct End {
+pub(super) struct WayEnd {
     pub(super) traction: [Jet; 2],
     pub(super) jump_plastic: Vector2<f64>,
     pub(super) dissipation: Jet,
@@ -25,7 +25,12 @@ pub(super) struct End {
 }
 
 /// End of the straight way between two jumps, from the irreversible jump at its start.
-pub(super) fn follow(law: &Coulomb, start: Vector2<f64>, plastic: Vector2<f64>, jump: Vector2<f64>) -> End {
+pub(super) fn follow(
+    law: &Coulomb,
+    start: Vector2<f64>,
+    plastic: Vector2<f64>,
+    jump: Vector2<f64>,
+) -> WayEnd {
     let [n, t] = Jet::variables(jump);
     if start.x <= plastic.x {
         let from = [(start.x - plastic.x).into(), (start.y - plastic.y).into()];
@@ -41,8 +46,8 @@ pub(super) fn follow(law: &Coulomb, start: Vector2<f64>, plastic: Vector2<f64>, 
 }
 
 /// Open faces at the end, r_t^p := r_t.
-fn open(plastic_n: f64, jump_t: f64) -> End {
-    End {
+fn open(plastic_n: f64, jump_t: f64) -> WayEnd {
+    WayEnd {
         traction: [0.0.into(); 2],
         jump_plastic: Vector2::new(plastic_n, jump_t),
         dissipation: 0.0.into(),
@@ -77,7 +82,7 @@ impl ClosedWay {
     }
 
     /// Stick up to the first event, then slip or parting.
-    fn follow(&self, law: &Coulomb) -> End {
+    fn follow(&self, law: &Coulomb) -> WayEnd {
         let forward = (self.to[T].value - self.from[T].value).signum();
         let parts = self.rise(|elastic| elastic[N]);
         let slips = [forward, -forward]
@@ -95,9 +100,9 @@ impl ClosedWay {
         }
         if let Some(parting) = parts {
             let tau = law.tangential_stiffness * self.at(parting)[T].value;
-            return End { released: law.shear_energy(tau), ..open(self.plastic.x, self.jump_t) };
+            return WayEnd { released: law.shear_energy(tau), ..open(self.plastic.x, self.jump_t) };
         }
-        End {
+        WayEnd {
             traction: [law.normal_stiffness * self.to[N], law.tangential_stiffness * self.to[T]],
             jump_plastic: self.plastic,
             dissipation: 0.0.into(),
@@ -107,7 +112,7 @@ impl ClosedWay {
     }
 
     /// Slip from `start` on, to the end or to the parting.
-    fn slip(&self, slide: &Slide, start: Jet) -> End {
+    fn slip(&self, slide: &Slide, start: Jet) -> WayEnd {
         let law = slide.law;
         let sigma = (law.normal_stiffness * self.at(start)[N]).min(0.0.into());
         let Some(parting) = self.rise(|elastic| slide.sigma(elastic)) else {
@@ -127,17 +132,17 @@ impl ClosedWay {
         let back = Slide { law, direction: -slide.direction };
         if law.cohesion == 0.0 && back.sigma(&rest.to).value < 0.0 {
             let end = rest.slipping(&back, 0.0.into());
-            return End { dissipation: dissipation + end.dissipation, ..end };
+            return WayEnd { dissipation: dissipation + end.dissipation, ..end };
         }
         let released = law.shear_energy(law.cohesion);
-        End { dissipation, released, ..open(rest.plastic.x, self.jump_t) }
+        WayEnd { dissipation, released, ..open(rest.plastic.x, self.jump_t) }
     }
 
     /// Slip to the end; `sigma` where it starts.
-    fn slipping(&self, slide: &Slide, sigma: Jet) -> End {
+    fn slipping(&self, slide: &Slide, sigma: Jet) -> WayEnd {
         let slip = slide.slip(&self.to);
         let end = slide.sigma(&self.to);
-        End {
+        WayEnd {
             traction: [end, slide.direction * slide.limit(end)],
             jump_plastic: self.plastic + slide.irreversible(slip),
             dissipation: slide.dissipation(slip, sigma, end),

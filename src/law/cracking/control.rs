@@ -9,7 +9,7 @@
 use nalgebra::Vector2;
 
 use super::flow::Mode;
-use super::march::{Point, Stage, two_stage_step};
+use super::march::{Stage, WayPoint, two_stage_step};
 use super::surface::Surface;
 
 /// Local bound per ε^{3/2}, of the strength.
@@ -46,11 +46,11 @@ const LEAPS: usize = 50;
 pub(super) struct Double {
     pub length: f64,
     pub stages: [[Stage; 2]; 2],
-    pub end: Point,
+    pub end: WayPoint,
 }
 
 /// Error control under way.
-pub(super) struct Control {
+pub(super) struct ErrorControl {
     bound: f64,
     event_bound: f64,
     shortest: f64,
@@ -65,14 +65,14 @@ pub(super) struct Control {
     leaps: usize,
 }
 
-impl Control {
+impl ErrorControl {
     /// At the onset, with this much of the way ahead.
-    pub fn new(surface: &Surface, tolerance: f64, total: f64) -> Control {
+    pub fn new(surface: &Surface, tolerance: f64, total: f64) -> ErrorControl {
         let loss = 1.0 / surface.loss(); // infinite if nothing is lost
         let length = (FIRST_LENGTH * tolerance.max(SMALLEST_TOLERANCE).sqrt() * loss).min(total);
         let bound = local_bound(surface, tolerance);
         let strength = if bound.is_finite() { surface.scale() } else { f64::INFINITY };
-        Control {
+        ErrorControl {
             bound,
             event_bound: EVENT * tolerance.max(SMALLEST_TOLERANCE) * strength,
             shortest: SHORTEST * length,
@@ -88,7 +88,7 @@ impl Control {
     pub fn next(
         &mut self,
         surface: &Surface,
-        from: &Point,
+        from: &WayPoint,
         direction: Vector2<f64>,
         left: f64,
     ) -> Option<Double> {
@@ -142,7 +142,7 @@ pub(super) fn local_bound(surface: &Surface, tolerance: f64) -> f64 {
 }
 
 /// A sub-step in halves.
-pub(super) fn in_halves(surface: &Surface, from: &Point, direction: Vector2<f64>, length: f64) -> Double {
+pub(super) fn in_halves(surface: &Surface, from: &WayPoint, direction: Vector2<f64>, length: f64) -> Double {
     let change = direction * (0.5 * length);
     let (middle, first) = two_stage_step(surface, from, change);
     let (end, second) = two_stage_step(surface, &middle, change);
@@ -151,7 +151,7 @@ pub(super) fn in_halves(surface: &Surface, from: &Point, direction: Vector2<f64>
 
 /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
 /// to its root where τ vanishes.
-fn rounding_near_vertex(surface: &Surface, end: &Point) -> f64 {
+fn rounding_near_vertex(surface: &Surface, end: &WayPoint) -> f64 {
     let largest = surface.scale() * (ROUNDING * surface.e_chi.max(1.0 / surface.e_chi)).sqrt();
     if (1.0 - end.work * surface.per_gf_i).abs() <= AT_ORIGIN {
         return largest;
@@ -164,7 +164,7 @@ fn rounding_near_vertex(surface: &Surface, end: &Point) -> f64 {
 }
 
 /// Whether the flow changes its law within a step: another mode, or an energy used up.
-fn is_across_event(surface: &Surface, from: &Point, step: &Double) -> bool {
+fn is_across_event(surface: &Surface, from: &WayPoint, step: &Double) -> bool {
     let mode = step.end.mode;
     let used_up = |w: f64| [w * surface.per_gf_i >= USED_UP, w * surface.per_gf_iia >= USED_UP];
     (from.mode != Mode::Elastic && from.mode != mode)

@@ -30,7 +30,7 @@ struct Set {
 
 /// The part of its boundary that a trial returns to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Part {
+enum SetRegion {
     Inside,
     Facet,
     Cut,
@@ -53,7 +53,7 @@ impl Set {
     }
 
     /// The nearest traction of the set, in the measure of the compliance.
-    fn nearest(&self, trial: Vector2<f64>) -> (Vector2<f64>, Part) {
+    fn nearest(&self, trial: Vector2<f64>) -> (Vector2<f64>, SetRegion) {
         let ([kn, kt], a, chi) = (self.stiffness, self.slope, self.chi);
         let (sigma, tau) = (trial.x, trial.y.abs());
         let excess = tau - self.limit(sigma);
@@ -61,30 +61,30 @@ impl Set {
         let by_facet = Vector2::new(sigma - kn * a * slip, tau - kt * slip);
         let corner = self.limit(chi);
         let (end, part) = if excess <= 0.0 && sigma <= chi {
-            (Vector2::new(sigma, tau), Part::Inside)
+            (Vector2::new(sigma, tau), SetRegion::Inside)
         } else if excess > 0.0 && by_facet.x <= chi && by_facet.y >= 0.0 {
-            (by_facet, Part::Facet)
+            (by_facet, SetRegion::Facet)
         } else if tau <= corner {
-            (Vector2::new(chi, tau), Part::Cut)
+            (Vector2::new(chi, tau), SetRegion::Cut)
         } else if corner >= 0.0 {
-            (Vector2::new(chi, corner), Part::Corner)
+            (Vector2::new(chi, corner), SetRegion::Corner)
         } else {
-            (Vector2::new(self.from[0] + self.from[1] / a, 0.0), Part::Corner)
+            (Vector2::new(self.from[0] + self.from[1] / a, 0.0), SetRegion::Corner)
         };
         (Vector2::new(end.x, end.y.copysign(trial.y)), part)
     }
 
     /// dt/dr, symmetric and never negative.
-    fn tangent(&self, part: Part, sign: f64) -> Matrix2<f64> {
+    fn tangent(&self, part: SetRegion, sign: f64) -> Matrix2<f64> {
         let ([kn, kt], a) = (self.stiffness, self.slope);
         match part {
-            Part::Inside => Matrix2::new(kn, 0.0, 0.0, kt),
-            Part::Facet => {
+            SetRegion::Inside => Matrix2::new(kn, 0.0, 0.0, kt),
+            SetRegion::Facet => {
                 let stiff = Vector2::new(kn * a, kt * sign);
                 Matrix2::new(kn, 0.0, 0.0, kt) - stiff * stiff.transpose() / (kt + a * a * kn)
             }
-            Part::Cut => Matrix2::new(0.0, 0.0, 0.0, kt),
-            Part::Corner => Matrix2::zeros(),
+            SetRegion::Cut => Matrix2::new(0.0, 0.0, 0.0, kt),
+            SetRegion::Corner => Matrix2::zeros(),
         }
     }
 
@@ -111,7 +111,7 @@ pub(super) fn on_facet(surface: &Surface, jump: Vector2<f64>, old: &State) -> Re
         false => (traction.y.abs() + traction.x * surface.at(old.fracture_work).t) * plastic.y.abs(),
     };
     let mode = match part {
-        Part::Inside => Mode::Elastic,
+        SetRegion::Inside => Mode::Elastic,
         _ if traction.x > 0.0 => Mode::Tension,
         _ => Mode::Compression,
     };

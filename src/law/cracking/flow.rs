@@ -56,7 +56,7 @@ pub(super) struct ByTauWork {
 
 /// Everything the two equations share at one (τ, W).
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Equations {
+pub(super) struct ReturnEquations {
     pub s: f64,
     pub sigma: ByTauWork,
     pub normal: ByTauWork,
@@ -108,7 +108,7 @@ pub(super) fn equations(
     now: &Hyperbola,
     tau: f64,
     w: f64,
-) -> Equations {
+) -> ReturnEquations {
     let Hyperbola { t, b, dc, dt, db, fc, dfc, .. } = *now;
     let s = now.root(tau);
     let sigma = now.sigma(tau, s);
@@ -147,5 +147,5 @@ pub(super) fn equations(
         )
     };
     let work = ByTauWork { value: w - trial.work - value, tau: -omega_tau, work: 1.0 - omega_w };
-    Equations { s, sigma, normal, work }
+    ReturnEquations { s, sigma, normal, work }
 }

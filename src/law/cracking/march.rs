@@ -29,7 +29,7 @@ pub(super) const ELASTIC: f64 = 1e-13;
 
 /// A point of the way.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct WayPoint {
     pub traction: Vector2<f64>,
     pub work: f64,
     pub dissipation: f64,
@@ -53,10 +53,10 @@ pub(super) struct Stage {
     answer: Answer,
 }
 
-impl Point {
+impl WayPoint {
     /// The start of an increment.
-    pub fn start(old: &State) -> Point {
-        Point { traction: old.traction, work: old.fracture_work, dissipation: 0.0, mode: Mode::Elastic }
+    pub fn start(old: &State) -> WayPoint {
+        WayPoint { traction: old.traction, work: old.fracture_work, dissipation: 0.0, mode: Mode::Elastic }
     }
 }
 
@@ -98,13 +98,17 @@ pub(super) fn step_nested(surface: &Surface, jump: Vector2<f64>, old: &State) ->
 }
 
 /// One backward Euler step along a change of jump.
-pub(super) fn euler_step(surface: &Surface, from: &Point, change: Vector2<f64>) -> (Point, Stage) {
+pub(super) fn euler_step(surface: &Surface, from: &WayPoint, change: Vector2<f64>) -> (WayPoint, Stage) {
     let stage = stage(surface, from.traction + stiff(surface, change), from.work, from.traction.y.abs());
     (stage.end(from.dissipation + stage.dissipation(surface)), stage)
 }
 
 /// One step of the two-stage scheme along a change of jump.
-pub(super) fn two_stage_step(surface: &Surface, from: &Point, change: Vector2<f64>) -> (Point, [Stage; 2]) {
+pub(super) fn two_stage_step(
+    surface: &Surface,
+    from: &WayPoint,
+    change: Vector2<f64>,
+) -> (WayPoint, [Stage; 2]) {
     let first =
         stage(surface, from.traction + GAMMA * stiff(surface, change), from.work, from.traction.y.abs());
     let returned = first.trial - first.traction;
@@ -129,8 +133,8 @@ impl Stage {
         self.traction.dot(&compliant(surface, self.trial - self.traction))
     }
 
-    fn end(&self, dissipation: f64) -> Point {
-        Point { traction: self.traction, work: self.answer.work, dissipation, mode: self.answer.mode }
+    fn end(&self, dissipation: f64) -> WayPoint {
+        WayPoint { traction: self.traction, work: self.answer.work, dissipation, mode: self.answer.mode }
     }
 
     /// d(t, W) of this stage from d(trial, W_old).

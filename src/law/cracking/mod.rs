@@ -31,7 +31,7 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Response, State, Stepping, Unresolved};
+use super::{Integration, Response, State, Unresolved};
 use substep::{Lengths, march, march_euler, onset_of};
 use surface::Surface;
 
@@ -97,14 +97,14 @@ impl Cracking {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Stepping,
+        stepping: Integration,
     ) -> Result<Response, Unresolved> {
         let surface = Surface::new(self);
         match stepping {
-            Stepping::Tolerance(tolerance) => {
+            Integration::Tolerance(tolerance) => {
                 march(&surface, jump, old, Lengths::Controlled(tolerance, None))
             }
-            Stepping::BackwardEuler(steps) => Ok(march_euler(&surface, jump, old, steps)),
+            Integration::BackwardEuler(steps) => Ok(march_euler(&surface, jump, old, steps)),
         }
     }
 

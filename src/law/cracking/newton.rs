@@ -3,7 +3,7 @@
 //! The mode is that of the return at the old W. An answer is accepted only if it satisfies the equations and every
 //! sign its mode promises; anything else is solved again, safely.
 
-use super::flow::{Answer, Equations, Mode, Trial, equations, without_dilatancy};
+use super::flow::{Answer, Mode, ReturnEquations, Trial, equations, without_dilatancy};
 use super::nested::{mode_at, solve_nested};
 use super::surface::Surface;
 
@@ -43,7 +43,7 @@ fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -
     let mut w = trial.work;
     for _ in 0..ITERATIONS {
         let now = surface.at(w);
-        let Equations { normal, work, .. } = equations(surface, mode, trial, &now, tau, w);
+        let ReturnEquations { normal, work, .. } = equations(surface, mode, trial, &now, tau, w);
         let det = normal.tau * work.work - normal.work * work.tau;
         let d_tau = (normal.work * work.value - normal.value * work.work) / det;
         let d_w = (work.tau * normal.value - normal.tau * work.value) / det;

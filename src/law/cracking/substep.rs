@@ -7,9 +7,9 @@
 use nalgebra::{Matrix2, Vector2};
 
 use super::super::{Response, State, Unresolved};
-use super::control::{Control, in_halves};
+use super::control::{ErrorControl, in_halves};
 use super::flow::Mode;
-use super::march::{Point, Slopes, compliant, euler_step, margin, stiff, stiff_rows};
+use super::march::{Slopes, WayPoint, compliant, euler_step, margin, stiff, stiff_rows};
 use super::surface::Surface;
 
 /// A state that does not move is outside above so many times the margin.
@@ -27,7 +27,7 @@ pub(super) enum Lengths<'a> {
 pub(super) fn march_euler(surface: &Surface, jump: Vector2<f64>, old: &State, steps: usize) -> Response {
     let part = 1.0 / steps.max(1) as f64;
     let change = (jump - old.jump) * part;
-    let mut point = Point::start(old);
+    let mut point = WayPoint::start(old);
     let mut slopes = Slopes::none();
     for _ in 0..steps.max(1) {
         let (end, stage) = euler_step(surface, &point, change);
@@ -46,7 +46,7 @@ pub(super) fn march(
 ) -> Result<Response, Unresolved> {
     let change = jump - old.jump;
     let trial = old.traction + stiff(surface, change);
-    let mut point = Point::start(old);
+    let mut point = WayPoint::start(old);
     let outside = surface.at(old.fracture_work).hyperbola(trial.x, trial.y) > margin(surface, trial);
     if change == Vector2::zeros()
         && surface.at(old.fracture_work).hyperbola(trial.x, trial.y) > LEFT_OUTSIDE * margin(surface, trial)
@@ -75,7 +75,7 @@ pub(super) fn march(
     let turn = (Matrix2::identity() - direction * direction.transpose()) / distance;
     let total = (1.0 - fraction) * distance;
     let mut control = match &lengths {
-        Lengths::Controlled(tolerance, _) => Some(Control::new(surface, *tolerance, total)),
+        Lengths::Controlled(tolerance, _) => Some(ErrorControl::new(surface, *tolerance, total)),
         Lengths::Given(_) => None,
     };
     let mut here = onset; // d(place on the way)/d(jump)
@@ -112,14 +112,14 @@ pub(super) fn onset_of(surface: &Surface, jump: Vector2<f64>, old: &State) -> Op
     let change = jump - old.jump;
     let trial = old.traction + stiff(surface, change);
     let outside = surface.at(old.fracture_work).hyperbola(trial.x, trial.y) > margin(surface, trial);
-    outside.then(|| onset(surface, &Point::start(old), change).0)
+    outside.then(|| onset(surface, &WayPoint::start(old), change).0)
 }
 
 /// Fraction of the way at which an elastic point meets the hyperbola, and its derivative by the jump.
 ///
 /// F is convex along the way, not positive at its start and positive at its end: Newton from the end falls
 /// monotonically on the one crossing.
-fn onset(surface: &Surface, start: &Point, change: Vector2<f64>) -> (f64, Vector2<f64>) {
+fn onset(surface: &Surface, start: &WayPoint, change: Vector2<f64>) -> (f64, Vector2<f64>) {
     let now = surface.at(start.work);
     let rate = stiff(surface, change);
     let at = |x: f64| {
@@ -148,7 +148,7 @@ fn onset(surface: &Surface, start: &Point, change: Vector2<f64>) -> (f64, Vector
     }
 }
 
-fn response(surface: &Surface, jump: Vector2<f64>, old: &State, end: &Point, slopes: &Slopes) -> Response {
+fn response(surface: &Surface, jump: Vector2<f64>, old: &State, end: &WayPoint, slopes: &Slopes) -> Response {
     let traction = end.traction;
     let returned = old.traction + stiff(surface, jump - old.jump) - traction;
     let jump_plastic = match end.mode {

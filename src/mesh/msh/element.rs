@@ -1,11 +1,11 @@
 //! The element types of gmsh: which shape each number stands for, and the names of those that have no place here.
 
-use super::Fault;
+use super::content::MeshFault;
 use crate::shape::Shape;
 
 /// What an element is to a plane mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum ElementKind {
     /// A point.
     Point,
     /// An edge.
@@ -14,18 +14,18 @@ pub(super) enum Kind {
     Cell(Shape),
 }
 
-impl Kind {
+impl ElementKind {
     /// The kind of gmsh element type `number`; its name in the refusal if a plane mesh cannot hold it.
-    pub(super) fn of(number: i32) -> Result<Kind, Fault> {
+    pub(super) fn of(number: i32) -> Result<ElementKind, MeshFault> {
         Ok(match number {
-            15 => Kind::Point,
-            1 => Kind::Edge(Shape::Line2),
-            8 => Kind::Edge(Shape::Line3),
-            2 => Kind::Cell(Shape::Triangle3),
-            9 => Kind::Cell(Shape::Triangle6),
-            3 => Kind::Cell(Shape::Quadrilateral4),
-            16 => Kind::Cell(Shape::Quadrilateral8),
-            10 => Kind::Cell(Shape::Quadrilateral9),
+            15 => ElementKind::Point,
+            1 => ElementKind::Edge(Shape::Line2),
+            8 => ElementKind::Edge(Shape::Line3),
+            2 => ElementKind::Cell(Shape::Triangle3),
+            9 => ElementKind::Cell(Shape::Triangle6),
+            3 => ElementKind::Cell(Shape::Quadrilateral4),
+            16 => ElementKind::Cell(Shape::Quadrilateral8),
+            10 => ElementKind::Cell(Shape::Quadrilateral9),
             _ => return Err(refuse(number)),
         })
     }
@@ -33,22 +33,22 @@ impl Kind {
     /// Number of nodes.
     pub(super) fn nodes(self) -> usize {
         match self {
-            Kind::Point => 1,
-            Kind::Edge(shape) | Kind::Cell(shape) => shape.nodes(),
+            ElementKind::Point => 1,
+            ElementKind::Edge(shape) | ElementKind::Cell(shape) => shape.nodes(),
         }
     }
 
     /// Dimension of the entities that hold such elements.
     pub(super) fn dim(self) -> i32 {
         match self {
-            Kind::Point => 0,
-            Kind::Edge(_) => 1,
-            Kind::Cell(_) => 2,
+            ElementKind::Point => 0,
+            ElementKind::Edge(_) => 1,
+            ElementKind::Cell(_) => 2,
         }
     }
 }
 
-fn refuse(number: i32) -> Fault {
+fn refuse(number: i32) -> MeshFault {
     let (name, solid) = match number {
         4 => ("tetrahedra", true),
         5 => ("hexahedra", true),
@@ -72,12 +72,12 @@ fn refuse(number: i32) -> Fault {
         37 => ("quadrilaterals of order 4 (25 nodes)", false),
         39 => ("incomplete cubic quadrilaterals (12 nodes)", false),
         _ => {
-            return Fault {
+            return MeshFault {
                 what: format!("has elements of gmsh type {number}"),
                 cure: "a plane mesh has triangles and quadrilaterals of order 1 or 2".into(),
             };
         }
     };
     let cure = if solid { "mesh the surfaces only (gmsh -2)" } else { "use Mesh.ElementOrder = 1 or 2" };
-    Fault { what: format!("has {name}"), cure: cure.into() }
+    MeshFault { what: format!("has {name}"), cure: cure.into() }
 }

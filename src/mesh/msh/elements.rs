@@ -6,12 +6,12 @@
 //! tag node node ...                         its elements
 //! ```
 
+use super::content::{Content, EntityBlock, MeshFault, damaged};
 use super::cursor::Cursor;
-use super::element::Kind;
+use super::element::ElementKind;
 use super::entities::Entities;
 use super::pieces::{Decoder, pieces};
 use super::tags::Tags;
-use super::{Block, Content, Fault, damaged};
 
 /// Reads the elements that belong to the mesh into `content`.
 pub(super) fn read(
@@ -20,7 +20,7 @@ pub(super) fn read(
     entities: &Entities,
     numbers: &Tags,
     content: &mut Content,
-) -> Result<(), Fault> {
+) -> Result<(), MeshFault> {
     let cut = || damaged("$Elements ends early or holds something that is not a number");
     let (Some(blocks), Some(total), Some(least), Some(most)) =
         (cursor.size(), cursor.size(), cursor.size(), cursor.size())
@@ -35,7 +35,7 @@ pub(super) fn read(
         let (Some(dim), Some(entity), Some(gmsh_type)) = (cursor.int(), cursor.int(), cursor.int()) else {
             return Err(cut());
         };
-        let kind = Kind::of(gmsh_type)?;
+        let kind = ElementKind::of(gmsh_type)?;
         if kind.dim() != dim {
             return Err(damaged(format!(
                 "has elements of gmsh type {gmsh_type} on an entity of dimension {dim}"
@@ -64,7 +64,7 @@ pub(super) fn read(
         }
         if let Some(groups) = groups {
             let members = first..content.tags[dim as usize].len();
-            content.blocks.push(Block { dim: dim as usize, members, groups: groups.to_vec() });
+            content.blocks.push(EntityBlock { dim: dim as usize, members, groups: groups.to_vec() });
         }
     }
     if held != total {
@@ -74,19 +74,19 @@ pub(super) fn read(
 }
 
 impl Content {
-    fn reserve(&mut self, kind: Kind, count: usize) {
+    fn reserve(&mut self, kind: ElementKind, count: usize) {
         self.tags[kind.dim() as usize].reserve(count);
         match kind {
-            Kind::Point => self.vertices.reserve(count),
-            Kind::Edge(_) => self.edges.reserve(count),
-            Kind::Cell(shape) => {
+            ElementKind::Point => self.vertices.reserve(count),
+            ElementKind::Edge(_) => self.edges.reserve(count),
+            ElementKind::Cell(shape) => {
                 self.shapes.reserve(count);
                 self.cell_nodes.reserve(count * shape.nodes());
             }
         }
     }
 
-    fn add(&mut self, kind: Kind, tag: u64, nodes: &[u64], numbers: &Tags) -> Result<(), Fault> {
+    fn add(&mut self, kind: ElementKind, tag: u64, nodes: &[u64], numbers: &Tags) -> Result<(), MeshFault> {
         let number = |node: u64| {
             numbers
                 .number(node)
@@ -94,12 +94,14 @@ impl Content {
         };
         self.tags[kind.dim() as usize].push(tag);
         match (kind, nodes) {
-            (Kind::Point, &[node]) => self.vertices.push(number(node)?),
-            (Kind::Edge(_), &[start, end]) => self.edges.push([number(start)?, number(end)?, u32::MAX]),
-            (Kind::Edge(_), &[start, end, mid]) => {
+            (ElementKind::Point, &[node]) => self.vertices.push(number(node)?),
+            (ElementKind::Edge(_), &[start, end]) => {
+                self.edges.push([number(start)?, number(end)?, u32::MAX])
+            }
+            (ElementKind::Edge(_), &[start, end, mid]) => {
                 self.edges.push([number(start)?, number(end)?, number(mid)?])
             }
-            (Kind::Cell(shape), nodes) if nodes.len() == shape.nodes() => {
+            (ElementKind::Cell(shape), nodes) if nodes.len() == shape.nodes() => {
                 self.shapes.push(shape);
                 for &node in nodes {
                     self.cell_nodes.push(number(node)?);
@@ -126,7 +128,7 @@ impl TagRuns {
         }
     }
 
-    fn unique(mut self) -> Result<(), Fault> {
+    fn unique(mut self) -> Result<(), MeshFault> {
         self.runs.sort_unstable();
         match self.runs.windows(2).find(|pair| pair[1][0] <= pair[0][1]) {
             Some(pair) => Err(damaged(format!("has element {} twice", pair[1][0]))),

@@ -2,8 +2,7 @@
 
 use mshio::Entities as Parsed;
 
-use super::names::Declared;
-use super::{Fault, damaged};
+use super::content::{Declared, KINDS, MeshFault, damaged};
 
 /// Physical tags of the entities, by dimension.
 #[derive(Debug, Default)]
@@ -18,7 +17,7 @@ pub(super) struct Entities {
 
 impl Entities {
     /// Takes the physical tags out of what mshio read.
-    pub(super) fn new(parsed: Parsed<i32, f64>) -> Result<Entities, Fault> {
+    pub(super) fn new(parsed: Parsed<i32, f64>) -> Result<Entities, MeshFault> {
         let by_dim = [
             parsed.points.into_iter().map(|e| (e.tag, absolute(&e.physical_tags))).collect(),
             parsed.curves.into_iter().map(|e| (e.tag, absolute(&e.physical_tags))).collect(),
@@ -38,7 +37,7 @@ impl Entities {
 
     /// Physical tags of an entity; `None` if its elements are in no group while others are, so that gmsh would not
     /// have saved them either.
-    pub(super) fn groups(&self, dim: i32, tag: i32) -> Result<Option<&[u32]>, Fault> {
+    pub(super) fn groups(&self, dim: i32, tag: i32) -> Result<Option<&[u32]>, MeshFault> {
         if !self.listed {
             return Ok(Some(&[]));
         }
@@ -69,9 +68,6 @@ impl Entities {
         }
     }
 }
-
-/// Names of the dimensions.
-pub(in crate::mesh) const KINDS: [&str; 4] = ["point", "curve", "surface", "volume"];
 
 /// gmsh writes the number of a group negative where the entity was listed reversed.
 fn absolute(tags: &[i32]) -> Vec<u32> {

@@ -4,6 +4,7 @@
 //! are there, and has mshio decode the rest in pieces (`pieces`). Nothing is allocated for a count that the file
 //! merely claims.
 
+mod content;
 mod cursor;
 mod element;
 mod elements;
@@ -13,63 +14,14 @@ mod nodes;
 mod pieces;
 mod tags;
 
-use crate::shape::Shape;
+pub(super) use content::{Content, Declared, KINDS, MeshFault, damaged};
 use cursor::{Cursor, Encoding};
 use entities::Entities;
-pub(super) use entities::KINDS;
-pub(super) use names::Declared;
 use pieces::Decoder;
 use tags::Tags;
 
-/// What is wrong with a file and what would have been right; the caller knows its name.
-#[derive(Debug)]
-pub(super) struct Fault {
-    pub(super) what: String,
-    pub(super) cure: String,
-}
-
-/// A file that gmsh did not write like this.
-pub(super) fn damaged(what: impl Into<String>) -> Fault {
-    Fault { what: what.into(), cure: "the file is damaged: write it again (gmsh -format msh41)".into() }
-}
-
-/// The content of a file. Elements refer to nodes by number.
-#[derive(Debug, Default)]
-pub(super) struct Content {
-    /// Tags of the nodes, for messages.
-    pub(super) node_tags: Vec<u64>,
-    /// Their coordinates.
-    pub(super) points: Vec<[f64; 2]>,
-    /// Nodes that belong to points of the geometry.
-    pub(super) corners: Vec<u32>,
-    /// Largest |z| and the node that has it.
-    pub(super) off_plane: (f64, u64),
-    /// Physical points: node.
-    pub(super) vertices: Vec<u32>,
-    /// Elements of curves: start, end and mid-node, `u32::MAX` without one.
-    pub(super) edges: Vec<[u32; 3]>,
-    /// Shapes of the cells.
-    pub(super) shapes: Vec<Shape>,
-    /// Nodes of the cells, one after the other.
-    pub(super) cell_nodes: Vec<u32>,
-    /// Tags of vertices, edges and cells, for messages.
-    pub(super) tags: [Vec<u64>; 3],
-    /// Runs of elements that belong to the same groups.
-    pub(super) blocks: Vec<Block>,
-    /// All groups, named ones first.
-    pub(super) declared: Vec<Declared>,
-}
-
-/// Consecutive vertices, edges or cells (by `dim`) of one entity.
-#[derive(Debug)]
-pub(super) struct Block {
-    pub(super) dim: usize,
-    pub(super) members: std::ops::Range<usize>,
-    pub(super) groups: Vec<u32>,
-}
-
 /// Reads the content of an MSH 4.1 file.
-pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
+pub(super) fn content(bytes: &[u8]) -> Result<Content, MeshFault> {
     let (mut cursor, encoding) = header(bytes)?;
     let mut decoder = Decoder::new(encoding);
     let mut entities = Entities::default();
@@ -93,7 +45,7 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
                 elements::read(&mut cursor, &mut decoder, &entities, &numbers, &mut content)?;
             }
             b"PartitionedEntities" => {
-                return Err(Fault {
+                return Err(MeshFault {
                     what: "is partitioned".into(),
                     cure: "save it without partitions".into(),
                 });
@@ -124,7 +76,7 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
     if content.shapes.is_empty() {
         return Err(match content.declared.iter().find(|group| group.dim == 2) {
             Some(surface) => surface.empty(),
-            None => Fault {
+            None => MeshFault {
                 what: "has no triangles or quadrilaterals".into(),
                 cure: "give the .geo a Physical Surface that covers the body".into(),
             },
@@ -134,9 +86,9 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, Fault> {
 }
 
 /// Checks the first lines; the position is then behind them.
-fn header(bytes: &[u8]) -> Result<(Cursor<'_>, Encoding), Fault> {
+fn header(bytes: &[u8]) -> Result<(Cursor<'_>, Encoding), MeshFault> {
     let cure = "write MSH 4.1 (gmsh -format msh41)";
-    let refuse = |what: &str| Fault { what: what.into(), cure: cure.into() };
+    let refuse = |what: &str| MeshFault { what: what.into(), cure: cure.into() };
     let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| refuse("is not an MSH file"))?;
     let mut lines = rest.splitn(3, |&b| b == b'\n').skip(1);
     let line = lines.next().and_then(|line| std::str::from_utf8(line).ok()).unwrap_or("");

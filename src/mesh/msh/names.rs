@@ -1,33 +1,10 @@
 //! Physical names, which mshio drops: lines `dimension tag "name"`, text also in binary files.
 
-use super::{Fault, KINDS, damaged};
-
-/// A physical group as gmsh declares it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::mesh) struct Declared {
-    /// 0 point, 1 curve, 2 surface, 3 volume.
-    pub(in crate::mesh) dim: usize,
-    /// Its number, unique within the dimension.
-    pub(in crate::mesh) tag: u32,
-    /// Its name; the number as text if it has none.
-    pub(in crate::mesh) name: String,
-}
-
-impl Declared {
-    /// The refusal of a group that holds nothing.
-    pub(in crate::mesh) fn empty(&self) -> Fault {
-        let kind = KINDS[self.dim];
-        let cure = match self.dim {
-            3 => "a plane mesh has physical points, curves and surfaces".into(),
-            _ => format!("a physical {kind} lists {kind}s that exist and are meshed"),
-        };
-        Fault { what: format!("physical {kind} \"{}\" has no elements", self.name), cure }
-    }
-}
+use super::content::{Declared, MeshFault, damaged};
 
 /// The groups that have names, from the content of `$PhysicalNames`.
-pub(super) fn read(content: &[u8]) -> Result<Vec<Declared>, Fault> {
-    let text = std::str::from_utf8(content).map_err(|_| Fault {
+pub(super) fn read(content: &[u8]) -> Result<Vec<Declared>, MeshFault> {
+    let text = std::str::from_utf8(content).map_err(|_| MeshFault {
         what: "a physical name is not UTF-8 text".into(),
         cure: "save the .geo as UTF-8".into(),
     })?;

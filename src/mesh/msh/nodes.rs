@@ -6,16 +6,20 @@
 //! tag tag ...  x y z  x y z ...             all its tags, then all its coordinates
 //! ```
 
+use super::content::{Content, MeshFault, damaged};
 use super::cursor::Cursor;
 use super::pieces::{Decoder, pieces};
 use super::tags::Tags;
-use super::{Content, Fault, damaged};
 
 /// Numbers per node: its tag and three coordinates.
 const PER_NODE: u64 = 4;
 
 /// Reads the nodes into `content`; returns the way from their tags to their numbers.
-pub(super) fn read(cursor: &mut Cursor, decoder: &mut Decoder, content: &mut Content) -> Result<Tags, Fault> {
+pub(super) fn read(
+    cursor: &mut Cursor,
+    decoder: &mut Decoder,
+    content: &mut Content,
+) -> Result<Tags, MeshFault> {
     let cut = || damaged("$Nodes ends early or holds something that is not a number");
     let (Some(blocks), Some(total), Some(least), Some(most)) =
         (cursor.size(), cursor.size(), cursor.size(), cursor.size())
@@ -32,7 +36,7 @@ pub(super) fn read(cursor: &mut Cursor, decoder: &mut Decoder, content: &mut Con
             return Err(cut());
         };
         if parametric != 0 {
-            return Err(Fault {
+            return Err(MeshFault {
                 what: "has nodes with parametric coordinates".into(),
                 cure: "set Mesh.SaveParametric = 0".into(),
             });

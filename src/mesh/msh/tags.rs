@@ -1,6 +1,6 @@
 //! From node tags, in whatever order and with whatever gaps, to node numbers 0, 1, 2, ...
 
-use super::{Fault, damaged};
+use super::content::{MeshFault, damaged};
 
 /// The number of each node tag.
 pub(super) enum Tags {
@@ -18,11 +18,11 @@ const SPREAD: u64 = 4;
 
 impl Tags {
     /// Refuses a tag that occurs twice.
-    pub(super) fn new(tags: &[u64]) -> Result<Tags, Fault> {
+    pub(super) fn new(tags: &[u64]) -> Result<Tags, MeshFault> {
         let first = tags.iter().copied().min().unwrap_or(1);
         let last = tags.iter().copied().max().unwrap_or(0);
         if u32::try_from(tags.len()).is_err() || tags.len() as u64 >= u64::from(ABSENT) {
-            return Err(Fault {
+            return Err(MeshFault {
                 what: format!("has {} nodes", tags.len()),
                 cure: "use a coarser mesh".into(),
             });
@@ -68,7 +68,7 @@ impl Tags {
     }
 }
 
-fn repeated(tag: u64) -> Fault {
+fn repeated(tag: u64) -> MeshFault {
     damaged(format!("has node {tag} twice"))
 }
 

@@ -6,24 +6,24 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use sha2::{Digest, Sha256};
 
-use super::{Condensed, NotPositiveDefinite, Substructure, TooLarge};
+use super::{CondensedSubdomain, NotPositiveDefinite, Substructure, TooLarge};
 use crate::assembly::Body;
 
 /// All that decides a body and its border, as a digest.
-type Key = [u8; 32];
+type SubdomainDigest = [u8; 32];
 
 /// Bodies by what decides them: points, cells, material, thickness, nodes on joints.
 #[derive(Debug)]
-pub struct Shelf {
-    bodies: Mutex<HashMap<Key, Arc<Substructure>>>,
+pub struct SubdomainCache {
+    bodies: Mutex<HashMap<SubdomainDigest, Arc<Substructure>>>,
     /// Memory that may still be filled [bytes].
     room: AtomicUsize,
 }
 
-impl Shelf {
+impl SubdomainCache {
     /// A shelf that keeps about this many bytes of condensations, the first that come.
-    pub fn new(room: usize) -> Shelf {
-        Shelf { bodies: Mutex::default(), room: AtomicUsize::new(room) }
+    pub fn new(room: usize) -> SubdomainCache {
+        SubdomainCache { bodies: Mutex::default(), room: AtomicUsize::new(room) }
     }
 
     /// The body, made unless it is there; true if it was.
@@ -43,7 +43,7 @@ impl Shelf {
         Ok((new, false))
     }
 
-    fn bodies(&self) -> MutexGuard<'_, HashMap<Key, Arc<Substructure>>> {
+    fn bodies(&self) -> MutexGuard<'_, HashMap<SubdomainDigest, Arc<Substructure>>> {
         self.bodies.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -52,7 +52,7 @@ impl Shelf {
         &self,
         body: &Substructure,
         held: Vec<bool>,
-    ) -> Result<(Arc<Condensed>, bool), NotPositiveDefinite> {
+    ) -> Result<(Arc<CondensedSubdomain>, bool), NotPositiveDefinite> {
         if let Some(kept) = body.kept(&held) {
             return Ok((kept, true));
         }
@@ -66,7 +66,7 @@ impl Shelf {
     }
 }
 
-fn key(body: &Body, thickness: f64, joined: &[bool]) -> Key {
+fn key(body: &Body, thickness: f64, joined: &[bool]) -> SubdomainDigest {
     let mut hash = Sha256::new();
     let mut numbers = |part: &mut dyn Iterator<Item = u64>| {
         let bytes: Vec<u8> = part.flat_map(u64::to_le_bytes).collect();

@@ -16,7 +16,7 @@ use super::{Condensation, Continuum, NotPositiveDefinite};
 
 /// Bodies under one set of supports.
 #[derive(Debug)]
-pub(super) struct Bodies<'a> {
+pub(super) struct FloatingModes<'a> {
     pub(super) continuum: &'a Continuum,
     condensation: Arc<Condensation>,
     pub(super) held: Vec<bool>,
@@ -26,13 +26,13 @@ pub(super) struct Bodies<'a> {
     pub(super) motions: Vec<Vec<Vec<f64>>>,
 }
 
-impl<'a> Bodies<'a> {
+impl<'a> FloatingModes<'a> {
     /// Factors the borders of all bodies, side by side.
     pub(super) fn new(
         continuum: &'a Continuum,
         condensation: Arc<Condensation>,
         held: &[bool],
-    ) -> Result<Bodies<'a>, NotPositiveDefinite> {
+    ) -> Result<FloatingModes<'a>, NotPositiveDefinite> {
         let make = |b: usize| {
             let (dofs, places) = (continuum.dofs_of(b), continuum.places_of(b));
             let held = &held[dofs.clone()];
@@ -59,7 +59,7 @@ impl<'a> Bodies<'a> {
         let made: Vec<_> = (0..continuum.bodies()).into_par_iter().map(make).collect();
         let made = made.into_iter().collect::<Result<Vec<_>, NotPositiveDefinite>>()?;
         let (factors, motions) = made.into_iter().unzip();
-        Ok(Bodies { continuum, condensation, held: held.to_vec(), factors, motions })
+        Ok(FloatingModes { continuum, condensation, held: held.to_vec(), factors, motions })
     }
 
     /// F̂ on the border in place; held dofs stay where they are.
@@ -83,7 +83,7 @@ impl<'a> Bodies<'a> {
     }
 }
 
-impl Factored for Bodies<'_> {
+impl Factored for FloatingModes<'_> {
     fn held(&self) -> &[bool] {
         &self.held
     }

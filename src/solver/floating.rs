@@ -22,13 +22,13 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Accum, Par};
 use rayon::prelude::*;
 
-use super::block::Block;
-use super::bodies::Bodies;
+use super::block::SubdomainBlock;
 use super::dense::column_mut;
+use super::modes::FloatingModes;
 use super::motions::most;
 use super::refine::Factored;
-use super::{Condensation, Continuum, Form, NotPositiveDefinite, Solution};
-use crate::assembly::{Joint, Tangent};
+use super::{Condensation, Continuum, Form, NodalSolution, NotPositiveDefinite};
+use crate::assembly::{InterfaceTangent, Joint};
 use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
@@ -38,21 +38,21 @@ const SLIGHT: f64 = 1e-3;
 
 /// The form of many bodies under one set of supports; all joints are asked.
 #[derive(Debug)]
-pub struct Blocks<'a> {
-    bodies: Bodies<'a>,
+pub struct FloatingSubdomains<'a> {
+    bodies: FloatingModes<'a>,
     joints: &'a [Joint],
     active: Vec<usize>,
     /// Springs of the size of E/h: they measure jumps as forces.
     springs: Vec<Csr>,
     /// First unknown of every joint; the rigid motions follow the last.
     first: Vec<usize>,
-    blocks: Vec<Block>,
+    blocks: Vec<SubdomainBlock>,
     unknowns: usize,
     plan: Option<(SymbolicSparseColMat<usize>, Argsort<usize>, SymbolicLu<usize>)>,
     factor: Option<Lu<usize, f64>>,
 }
 
-impl<'a> Blocks<'a> {
+impl<'a> FloatingSubdomains<'a> {
     /// Condenses every body on the joints for itself. `stiffness`: springs of the size of E/h at every law point.
     pub fn new(
         continuum: &'a Continuum,
@@ -60,8 +60,8 @@ impl<'a> Blocks<'a> {
         joints: &'a [Joint],
         stiffness: &[Vec<f64>],
         held: &[bool],
-    ) -> Result<Blocks<'a>, NotPositiveDefinite> {
-        let bodies = Bodies::new(continuum, condensation, held)?;
+    ) -> Result<FloatingSubdomains<'a>, NotPositiveDefinite> {
+        let bodies = FloatingModes::new(continuum, condensation, held)?;
         let mut first = vec![0];
         joints.iter().for_each(|joint| first.push(first[first.len() - 1] + joint.size()));
         let mut unknowns = first[joints.len()];
@@ -70,16 +70,26 @@ impl<'a> Blocks<'a> {
             starts.push((unknowns, most(continuum.components(), continuum.pieces_of(b))));
             unknowns += starts[b].1;
         }
-        let block = |b: usize| Block::new(&bodies, joints, &first, b, starts[b]);
+        let block = |b: usize| SubdomainBlock::new(&bodies, joints, &first, b, starts[b]);
         let blocks = (0..continuum.bodies()).into_par_iter().map(block).collect();
         let spring = |(joint, stiffness): (&Joint, &Vec<f64>)| {
-            let mut tangent = Tangent::new(joint);
+            let mut tangent = InterfaceTangent::new(joint);
             tangent.fill(joint, stiffness);
             tangent.matrix
         };
         let springs = joints.iter().zip(stiffness).map(spring).collect();
         let active = (0..joints.len()).collect();
-        Ok(Blocks { bodies, joints, active, springs, first, blocks, unknowns, plan: None, factor: None })
+        Ok(FloatingSubdomains {
+            bodies,
+            joints,
+            active,
+            springs,
+            first,
+            blocks,
+            unknowns,
+            plan: None,
+            factor: None,
+        })
     }
 
     /// Number of unknowns for a continuum: jump coefficients and rigid motions.
@@ -113,9 +123,9 @@ impl<'a> Blocks<'a> {
         places
     }
 
-    fn entries(&self, tangents: &[Tangent]) -> Vec<f64> {
+    fn entries(&self, tangents: &[InterfaceTangent]) -> Vec<f64> {
         let columns: Vec<Csr> = tangents.iter().map(|tangent| tangent.matrix.transposed()).collect();
-        let of_block = |block: &Block| {
+        let of_block = |block: &SubdomainBlock| {
             let (m, motions) = (block.touched.len(), block.moved.ncols());
             let mut values = Vec::with_capacity(m * (m + 2 * motions) + block.most);
             let mut column = vec![0.0; m + motions];
@@ -141,7 +151,7 @@ impl<'a> Blocks<'a> {
     }
 }
 
-impl Form for Blocks<'_> {
+impl Form for FloatingSubdomains<'_> {
     fn joints(&self) -> &[Joint] {
         self.joints
     }
@@ -215,7 +225,7 @@ impl Form for Blocks<'_> {
     }
 
     /// Every term of the residual to the precision of numbers.
-    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[Tangent]) -> f64 {
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[InterfaceTangent]) -> f64 {
         let q = forces.concat();
         let mut sizes: Vec<f64> = x.iter().zip(target).map(|(x, b)| x.abs() + b.abs()).collect();
         for block in &self.blocks {
@@ -232,7 +242,7 @@ impl Form for Blocks<'_> {
         self.error(&sizes, x, forces, target)
     }
 
-    fn factor(&mut self, tangents: &[Tangent]) -> bool {
+    fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
         let values = self.entries(tangents);
         if self.plan.is_none() {
             let made =
@@ -268,7 +278,7 @@ impl Form for Blocks<'_> {
         weights
     }
 
-    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {
         let mut load = force.to_vec();
         for (joint, q) in self.joints.iter().zip(forces) {
             let against: Vec<f64> = q.iter().map(|q| -q).collect();

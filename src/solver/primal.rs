@@ -13,15 +13,15 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use super::dense::column_mut;
 use super::linear::tractions;
-use super::{Form, Solution};
-use crate::assembly::{Joint, Pattern, Symmetric, Tangent};
+use super::{Form, NodalSolution};
+use crate::assembly::{InterfaceTangent, Joint, Pattern, Symmetric};
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The plain form under one set of supports.
 #[derive(Debug)]
-pub struct Plain<'a> {
+pub struct Primal<'a> {
     joints: &'a [Joint],
     active: Vec<usize>,
     /// Law stiffness of the other joints.
@@ -35,7 +35,7 @@ pub struct Plain<'a> {
     factor: Option<Lu<usize, f64>>,
 }
 
-impl<'a> Plain<'a> {
+impl<'a> Primal<'a> {
     /// Of the continuum alone on its pattern, with the joints in `active` and, as constant springs, all others.
     pub fn new(
         joints: &'a [Joint],
@@ -44,11 +44,11 @@ impl<'a> Plain<'a> {
         pattern: &'a Pattern,
         continuum: &'a Symmetric,
         held: &[bool],
-    ) -> Plain<'a> {
+    ) -> Primal<'a> {
         let diagonal = |j: usize| continuum.values[pattern.column(j).start];
         let scale = (0..pattern.size()).map(diagonal).fold(0.0, f64::max);
         let (active, held) = (active.to_vec(), held.to_vec());
-        Plain { joints, active, stiffness, pattern, continuum, held, scale, symbolic: None, factor: None }
+        Primal { joints, active, stiffness, pattern, continuum, held, scale, symbolic: None, factor: None }
     }
 
     fn passive(&self) -> impl Iterator<Item = usize> + '_ {
@@ -67,7 +67,7 @@ impl<'a> Plain<'a> {
     }
 }
 
-impl Form for Plain<'_> {
+impl Form for Primal<'_> {
     fn joints(&self) -> &[Joint] {
         self.joints
     }
@@ -105,7 +105,7 @@ impl Form for Plain<'_> {
     }
 
     /// Jumps are differences of displacements: their rounding is that of the displacements, times the stiffness.
-    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[Tangent]) -> f64 {
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64 {
         let mut sizes: Vec<f64> = target.iter().map(|b| b.abs()).collect();
         self.continuum.add_absolute_product(self.pattern, x, &mut sizes);
         let mut squares = sizes.iter().map(|size| size * size).sum::<f64>();
@@ -127,7 +127,7 @@ impl Form for Plain<'_> {
         ROUNDING * squares.sqrt() * per_force
     }
 
-    fn factor(&mut self, tangents: &[Tangent]) -> bool {
+    fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
         let n = self.pattern.size();
         let mut triplets = Vec::new();
         let mut entry = |i: usize, j: usize, value: f64| {
@@ -148,7 +148,7 @@ impl Form for Plain<'_> {
             self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
         }
         for k in self.passive() {
-            let mut tangent = Tangent::new(&self.joints[k]);
+            let mut tangent = InterfaceTangent::new(&self.joints[k]);
             tangent.fill(&self.joints[k], &self.stiffness[k]);
             self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
         }
@@ -180,7 +180,7 @@ impl Form for Plain<'_> {
         weights
     }
 
-    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {
         let internal = self.internal(x, forces);
         let residual: Vec<f64> = internal.iter().zip(force).map(|(internal, f)| internal - f).collect();
         let reactions =
@@ -188,6 +188,6 @@ impl Form for Plain<'_> {
         let u = (0..x.len()).map(|i| if self.held[i] { prescribed[i] } else { x[i] }).collect();
         let target = self.target(force, prescribed);
         let backward_error = self.error(&self.residual(x, forces, &target), x, forces, &target);
-        Solution { u, reactions, backward_error }
+        NodalSolution { u, reactions, backward_error }
     }
 }

@@ -15,8 +15,8 @@ use super::dense::column_mut;
 use super::jacobian::Jacobian;
 use super::measure::Functional;
 use super::refine::Factored;
-use super::{Base, Form, Measure, Ramp, Solution};
-use crate::assembly::{Joint, Tangent};
+use super::{Base, Form, LinearMeasure, NodalSolution, Ramp};
+use crate::assembly::{InterfaceTangent, Joint};
 use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
@@ -28,7 +28,7 @@ const RUN_AWAY: f64 = 100.0;
 
 /// The condensed form under one set of supports.
 #[derive(Debug)]
-pub struct Dual<'a> {
+pub struct Condensed<'a> {
     base: Base<'a>,
     active: Vec<usize>,
     /// T₀ of every active joint.
@@ -42,13 +42,18 @@ pub struct Dual<'a> {
     jacobian: Jacobian,
 }
 
-impl<'a> Dual<'a> {
+impl<'a> Condensed<'a> {
     /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point and whose laws
     /// have the stiffness `sound` there before anything has cracked or slipped.
-    pub fn new(base: Base<'a>, active: &[usize], stiffness: &[Vec<f64>], sound: &[Vec<f64>]) -> Dual<'a> {
+    pub fn new(
+        base: Base<'a>,
+        active: &[usize],
+        stiffness: &[Vec<f64>],
+        sound: &[Vec<f64>],
+    ) -> Condensed<'a> {
         let matrices = |stiffness: &[Vec<f64>]| -> Vec<Csr> {
             let matrix = |&k: &usize| {
-                let mut tangent = Tangent::new(&base.joints[k]);
+                let mut tangent = InterfaceTangent::new(&base.joints[k]);
                 tangent.fill(&base.joints[k], &stiffness[k]);
                 tangent.matrix
             };
@@ -61,7 +66,7 @@ impl<'a> Dual<'a> {
         let flexibility = base.flexibility(active);
         let active = active.to_vec();
         let (targets, functionals) = ([Vec::new(), Vec::new()], Vec::new());
-        Dual { base, active, springs, first, flexibility, targets, functionals, jacobian }
+        Condensed { base, active, springs, first, flexibility, targets, functionals, jacobian }
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -75,7 +80,7 @@ impl<'a> Dual<'a> {
     }
 }
 
-impl Form for Dual<'_> {
+impl Form for Condensed<'_> {
     fn joints(&self) -> &[Joint] {
         self.base.joints
     }
@@ -89,12 +94,12 @@ impl Form for Dual<'_> {
         self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&u)).collect()
     }
 
-    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[Measure]) -> bool {
+    fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]) -> bool {
         self.functionals.clear();
         let Some(ramp) = ramp else { return false };
         let loads = [0, 1].map(|end| (&ramp.force[end][..], &ramp.prescribed[end][..]));
         let ends = self.base.refined_all(&loads);
-        let on_joints = |solution: &Solution| -> Vec<f64> {
+        let on_joints = |solution: &NodalSolution| -> Vec<f64> {
             self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&solution.u)).collect()
         };
         self.targets = [on_joints(&ends[0]), on_joints(&ends[1])];
@@ -141,7 +146,7 @@ impl Form for Dual<'_> {
 
     /// Every term of the residual to the precision of numbers. Where nothing holds the joint, jumps run away: those are no
     /// reason to be content with less.
-    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[Tangent]) -> f64 {
+    fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[InterfaceTangent]) -> f64 {
         let far = RUN_AWAY * target.iter().map(|a| a.abs()).fold(0.0, f64::max);
         let absolute = |v: &[f64]| v.iter().map(|v| v.abs().min(far)).collect::<Vec<f64>>();
         let sizes: Vec<Vec<f64>> = (0..self.active.len())
@@ -160,7 +165,7 @@ impl Form for Dual<'_> {
         self.error(&misfit, x, forces, target)
     }
 
-    fn factor(&mut self, tangents: &[Tangent]) -> bool {
+    fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
         self.jacobian.factor(self.flexibility.as_ref(), tangents);
         true
     }
@@ -179,7 +184,7 @@ impl Form for Dual<'_> {
         of_coefficients.concat()
     }
 
-    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> Solution {
+    fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {
         let mut load = force.to_vec();
         let excess: Vec<f64> = self.excess(x, forces).iter().map(|q| -q).collect();
         for (k, &joint) in self.active.iter().enumerate() {

@@ -1,0 +1,24 @@
+//! Names of a scene: those that become files, and those of groups.
+
+use super::{Scene, split_group};
+use crate::error::{Result, name_cure};
+
+/// A name that becomes a file name: letters, digits, `_` and `-`.
+pub(super) fn check_name(scene: &Scene, path: &[&str], name: &str) -> Result<()> {
+    let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    if good && !name.starts_with('-') {
+        return Ok(());
+    }
+    let what = format!("\"{name}\" cannot name a file");
+    Err(scene.source.refuse(path, what, "use letters, digits, _ and -"))
+}
+
+/// The subdomain of a group must exist; whether it has that group is known when its mesh is.
+pub(super) fn check_group(scene: &Scene, path: &[&str], group: &str) -> Result<()> {
+    let subdomain = split_group(group).0;
+    if scene.subdomains.contains_key(subdomain) {
+        return Ok(());
+    }
+    let cure = name_cure(subdomain, scene.subdomains.keys().map(String::as_str));
+    Err(scene.source.refuse(path, format!("no subdomain \"{subdomain}\""), cure))
+}
