@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::newton::{Iterate, Unconverged};
+use super::iterate::{Iterate, Unconverged};
 use super::{Form, Respond};
 
 /// A law point is asked by itself; fewer than this many are not worth a thread.
@@ -57,11 +57,7 @@ pub(super) fn evaluate<L: Respond>(
 }
 
 /// Asks the laws at the jumps of some unknowns.
-pub(super) fn ask<L: Respond>(
-    form: &impl Form,
-    laws: &L,
-    x: &[f64],
-) -> Result<Answers<L::Memory>, Unconverged> {
+pub fn ask<L: Respond>(form: &impl Form, laws: &L, x: &[f64]) -> Result<Answers<L::Memory>, Unconverged> {
     let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
     let (mut forces, mut memory) = (Vec::new(), Vec::new());
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {

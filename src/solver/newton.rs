@@ -1,77 +1,49 @@
-//! Newton's method with a line search, for any form of the equilibrium K u + Gᵀ q(G u) = f.
+//! Newton's method with a line search, for any form of the equilibrium K u + Gᵀ q(G u) = f: under a load, or along the path of
+//! equilibria, where the load level λ is one more unknown and how far an increment goes is one more equation.
 //!
-//! A form (`dual`, `plain`) turns the equation into a residual R(x) of its own unknowns x and solves with its own
-//! Jacobian; laws answer jump by jump. The line search halves a step until the residual decreases: where points open, stick
-//! and slide by turns, full steps run in circles.
+//! ```text
+//! R(x) = A(x) − b₀ − λ b₁ = 0          ⎡ J   −b₁ ⎤ ⎡δx⎤   ⎡−R⎤
+//! g(x) = 0                             ⎣ cᵀ    0 ⎦ ⎣δλ⎦ = ⎣−g⎦      c = ∂g/∂x
+//! ```
+//!
+//! A form (`condensed`, `floating`, `primal`) turns the equation into a residual R(x) of its own unknowns x and solves with its
+//! own Jacobian; laws answer jump by jump. On a path two solves take one factor: δλ = (c·y − g) / (c·z), δx = δλ z − y with
+//! y = J⁻¹ R and z = J⁻¹ b₁. The line search halves a step until the residual decreases: where points open, stick and slide by
+//! turns, full steps run in circles.
 
-use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
-use super::evaluation::{Answers, Evaluation, ask, evaluate, unconverged};
-use super::{Form, Respond};
+use super::evaluation::{Evaluation, evaluate, unconverged};
+use super::{Affine, Constraint, Form, Iterate, NewtonSettings, PathPoint, Respond, Unconverged};
 use crate::assembly::InterfaceTangent;
 
-/// Most halvings of a step.
-const HALVINGS: usize = 10;
 /// Part of the linear prediction by which a step must reduce the residual.
 const SUFFICIENT: f64 = 1e-4;
 /// An iteration that leaves more than this part of the residual has reached the rounding, if it is near.
-pub(super) const STALLED: f64 = 0.5;
+const STALLED: f64 = 0.5;
 /// What rounding leaves is not taken for a solution above this.
-pub(super) const UNUSABLE: f64 = 1e-6;
+const UNUSABLE: f64 = 1e-6;
 /// A change in the last digit, and how many times the change of the residual that it brings counts as rounding.
 const DIGIT: f64 = 2.0 * f64::EPSILON;
 const SHOWN: f64 = 4.0;
-/// What is shown counts up to this: jumps that run away, where nothing holds the joint, would show anything.
+/// What is shown counts up to this: jumps that run away, where nothing holds the interface, would show anything.
 const SHOWN_MOST: f64 = 1e-10;
-
-/// When Newton ends, and with which tangent it goes.
-#[derive(Debug, Clone, Copy)]
-pub struct NewtonSettings {
-    /// Largest relative residual of a solution.
-    pub tolerance: f64,
-    /// Most iterations.
-    pub iterations: usize,
-    /// Give up if the residual has not halved in so many iterations.
-    pub patience: usize,
-    /// Stay with the tangent of the sound joints: linear convergence only.
-    pub initial_tangent: bool,
-}
-
-/// A solution, or where Newton stands.
-#[derive(Debug)]
-pub struct Iterate<M> {
-    /// The unknowns of the form.
-    pub x: Vec<f64>,
-    /// Jumps (n, t, …) at the law points of every active joint.
-    pub jumps: Vec<Vec<f64>>,
-    /// Tractions alike.
-    pub tractions: Vec<Vec<f64>>,
-    /// Forces q on the jump coefficients of every active joint.
-    pub forces: Vec<Vec<f64>>,
-    /// What the law points remember.
-    pub memory: Vec<Vec<M>>,
-    /// Linear systems solved.
-    pub iterations: usize,
-    /// Relative residual before every iteration and at the end.
-    pub residuals: Vec<f64>,
-}
-
-/// Why Newton ended without equilibrium.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Unconverged {
-    /// In words.
-    pub reason: String,
-    /// Joint and law point that are farthest from equilibrium.
-    pub worst: Vec<(usize, usize)>,
-    /// Linear systems solved.
-    pub iterations: usize,
-}
+/// The constraint of a path is met to this: it says how far to go, not where the path is.
+const MET: f64 = 1e-2;
 
 /// Newton's method on one form; the tangents' patterns are built once.
 #[derive(Debug)]
 pub struct Newton {
     pub(super) tangents: Vec<InterfaceTangent>,
+}
+
+/// The equilibrium that is sought.
+enum Aim<'a> {
+    /// Under a load.
+    Load(&'a [f64]),
+    /// Along the path of a load, as far as a constraint says.
+    Path(&'a Affine, &'a Constraint),
 }
 
 impl Newton {
@@ -89,28 +61,59 @@ impl Newton {
         target: &[f64],
         settings: NewtonSettings,
     ) -> Result<Iterate<L::Memory>, Unconverged> {
-        let mut best: Option<(Vec<f64>, Evaluation<L::Memory>)> = None;
+        let mut best: Option<(&Vec<f64>, Evaluation<L::Memory>)> = None;
         for start in starts {
             match evaluate(form, laws, start, target) {
                 Ok(there) if best.as_ref().is_none_or(|(_, kept)| there.error < kept.error) => {
-                    best = Some((start.to_vec(), there));
+                    best = Some((start, there));
                 }
                 Err(why) if best.is_none() => return Err(why),
                 _ => {}
             }
         }
-        let Some((mut x, mut now)) = best else {
+        let Some((start, now)) = best else {
             return Err(Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 });
         };
+        let start = PathPoint { x: start.clone(), level: 0.0 };
+        self.search(form, laws, (start, now), &Aim::Load(target), settings).map(|(iterate, _)| iterate)
+    }
+
+    /// The equilibrium as far from the last accepted one as a constraint says, sought from a point.
+    pub fn follow<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        start: PathPoint,
+        load: &Affine,
+        constraint: &Constraint,
+        settings: NewtonSettings,
+    ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
+        let now = evaluate(form, laws, &start.x, &load.at(start.level))?;
+        let settings = NewtonSettings { patience: usize::MAX, ..settings };
+        self.search(form, laws, (start, now), &Aim::Path(load, constraint), settings)
+    }
+
+    /// The equilibrium of an aim and its load level.
+    fn search<L: Respond>(
+        &mut self,
+        form: &mut impl Form,
+        laws: &L,
+        (start, mut now): (PathPoint, Evaluation<L::Memory>),
+        aim: &Aim,
+        settings: NewtonSettings,
+    ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
+        let PathPoint { mut x, mut level } = start;
         let mut residuals = vec![now.error];
         let (mut mark, mut since) = (now.error, 0);
         for iterations in 0..=settings.iterations {
+            let missing = aim.missing(form, laws, &now);
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || self.rounding(form, laws, &x, &now, target);
-            if iterations > 0 && (now.error <= settings.tolerance || stalled && now.error <= rounded()) {
+            let rounded = || self.rounding(form, laws, &x, &now, &aim.target(level));
+            let balanced = now.error <= settings.tolerance || stalled && now.error <= rounded();
+            if iterations > 0 && balanced && missing.abs() <= MET {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
-                return Ok(Iterate { x, jumps, tractions, forces, memory, iterations, residuals });
+                return Ok((Iterate { x, jumps, tractions, forces, memory, iterations, residuals }, level));
             }
             if now.error < 0.5 * mark {
                 (mark, since) = (now.error, 0);
@@ -122,88 +125,70 @@ impl Newton {
             }
             self.fill(form, laws, &now, settings);
             // at first what is free of stress is moved apart
-            let apart = if iterations == 0 { moved_apart(form, laws, &now) } else { None };
-            let residual = apart.map(|forces| form.residual(&x, &forces, target));
-            let mut correction =
-                self.correction(form, residual.unwrap_or_else(|| now.residual.clone()), &now, iterations)?;
-            correction.iter_mut().for_each(|value| *value = -*value);
-            let error = now.error.max(settings.tolerance); // below that rounding decides
-            let Some((next, there)) = search(form, laws, &x, &correction, target, error) else {
-                return Err(unconverged(
-                    form,
-                    "the laws have no answer along the correction",
-                    &now,
-                    iterations,
-                ));
+            let apart = match aim {
+                Aim::Load(target) if iterations == 0 => {
+                    moved_apart(form, laws, &now).map(|forces| form.residual(&x, &forces, target))
+                }
+                _ => None,
             };
-            (x, now) = (next, there);
+            let residual = apart.unwrap_or_else(|| now.residual.clone());
+            let (correction, change) = self.correction(form, laws, residual, &now, (aim, missing));
+            if !(change.is_finite() && correction.iter().all(|value| value.is_finite())) {
+                return Err(unconverged(form, aim.singular(), &now, iterations));
+            }
+            let tolerance = settings.tolerance;
+            let Some((next, next_level, there)) = search_line(
+                form,
+                laws,
+                ((&x, level), &now),
+                (&correction, change),
+                (aim, missing),
+                tolerance,
+            ) else {
+                return Err(unconverged(form, aim.unanswered(), &now, iterations));
+            };
+            (x, level, now) = (next, next_level, there);
             residuals.push(now.error);
         }
-        let reason = format!("out of balance by {:.1e} after {} iterations", now.error, residuals.len() - 1);
-        Err(unconverged(form, &reason, &now, residuals.len() - 1))
+        let (iterations, error) = (residuals.len() - 1, now.error);
+        let reason = match aim {
+            Aim::Load(_) => format!("out of balance by {error:.1e} after {iterations} iterations"),
+            Aim::Path(..) => format!("out of balance by {error:.1e} on the path"),
+        };
+        Err(unconverged(form, &reason, &now, iterations))
     }
 
-    /// The unknowns that the tangent leads to by a change of the target.
-    pub fn along<L: Respond>(
+    /// δx and δλ by the tangents at hand; not numbers where these are singular.
+    fn correction<L: Respond>(
         &mut self,
         form: &mut impl Form,
         laws: &L,
-        x: &[f64],
-        target: &[f64],
-        mut change: Vec<f64>,
-        settings: NewtonSettings,
-    ) -> Result<Vec<f64>, Unconverged> {
-        let now = evaluate(form, laws, x, target)?;
-        self.fill(form, laws, &now, settings);
-        if form.factor(&self.tangents) {
-            form.solve(&mut change);
+        residual: Vec<f64>,
+        now: &Evaluation<L::Memory>,
+        (aim, missing): (&Aim, f64),
+    ) -> (Vec<f64>, f64) {
+        let mut y = residual;
+        let factored = form.factor(&self.tangents);
+        if factored {
+            form.solve(&mut y);
         }
-        Ok(x.iter().zip(&change).map(|(x, d)| x + d).collect())
-    }
-
-    /// The answers of the laws at some unknowns.
-    pub fn look<L: Respond>(
-        &self,
-        form: &impl Form,
-        laws: &L,
-        x: &[f64],
-    ) -> Result<Answers<L::Memory>, Unconverged> {
-        ask(form, laws, x)
-    }
-
-    /// Evaluations at some unknowns and at those corrected by the factor at hand; with a change of the target also by as much of
-    /// it as keeps the correction across a way.
-    pub fn corrected<L: Respond>(
-        &self,
-        form: &impl Form,
-        laws: &L,
-        x: &[f64],
-        target: &[f64],
-        across: Option<(Vec<f64>, Vec<f64>)>,
-    ) -> Result<[Iterate<L::Memory>; 2], Unconverged> {
-        let here = evaluate(form, laws, x, target)?;
-        let mut correction = here.residual.clone();
-        form.solve(&mut correction);
-        let mut target = target.to_vec();
-        if let Some((change, way)) = across {
-            let mut along = change.clone();
-            form.solve(&mut along);
-            let dot = |a: &[f64]| a.iter().zip(&way).map(|(a, b)| a * b).sum::<f64>();
-            let more = dot(&correction) / dot(&along);
-            if more.is_finite() {
-                correction.iter_mut().zip(&along).for_each(|(d, z)| *d -= more * z);
-                target.iter_mut().zip(&change).for_each(|(b, change)| *b += more * change);
-            }
+        let Aim::Path(load, constraint) = aim else {
+            y.iter_mut().for_each(|value| *value = -*value);
+            return (y, 0.0);
+        };
+        let mut z = load.change.clone();
+        if factored {
+            form.solve(&mut z);
         }
-        let target = &target;
-        let next: Vec<f64> = x.iter().zip(&correction).map(|(x, d)| x - d).collect();
-        let there = evaluate(form, laws, &next, target)?;
-        Ok([here.into_iterate(x.to_vec()), there.into_iterate(next)])
+        let c = form.weights(&constraint.slope(form, laws, now));
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let change = (dot(&c, &y) - missing) / dot(&c, &z);
+        (y.iter().zip(&z).map(|(y, z)| change * z - y).collect(), change)
     }
 
     /// What rounding may leave of the residual: in the form's own terms, or as the laws show when the unknowns change in their
     /// last digit. A point that has lost its strength to the last digits turns those into much larger tractions.
-    pub(super) fn rounding<L: Respond>(
+    fn rounding<L: Respond>(
         &self,
         form: &impl Form,
         laws: &L,
@@ -219,23 +204,6 @@ impl Newton {
             form.error(&change, x, &now.forces, target)
         });
         own.max((SHOWN * shown).min(SHOWN_MOST)).min(UNUSABLE)
-    }
-
-    /// J⁻¹ R by the tangents at hand.
-    fn correction<M>(
-        &mut self,
-        form: &mut impl Form,
-        mut residual: Vec<f64>,
-        now: &Evaluation<M>,
-        iterations: usize,
-    ) -> Result<Vec<f64>, Unconverged> {
-        if form.factor(&self.tangents) {
-            form.solve(&mut residual);
-        }
-        if residual.iter().all(|value| value.is_finite()) {
-            return Ok(residual);
-        }
-        Err(unconverged(form, "the tangent is singular: nothing holds what slides or opens", now, iterations))
     }
 
     /// The tangents of an evaluation.
@@ -273,33 +241,80 @@ impl Newton {
     }
 }
 
-/// The best of the steps tried, from a full one to a thousandth: the first that reduces the residual enough.
-fn search<L: Respond>(
+impl Aim<'_> {
+    /// b at a load level.
+    fn target(&self, level: f64) -> Cow<'_, [f64]> {
+        match self {
+            Aim::Load(target) => Cow::Borrowed(target),
+            Aim::Path(load, _) => Cow::Owned(load.at(level)),
+        }
+    }
+
+    /// g.
+    fn missing<L: Respond>(&self, form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> f64 {
+        match self {
+            Aim::Load(_) => 0.0,
+            Aim::Path(_, constraint) => constraint.missing(form, laws, now),
+        }
+    }
+
+    /// Size of what is left of both equations.
+    fn merit(&self, error: f64, missing: f64, tolerance: f64) -> f64 {
+        match self {
+            Aim::Load(_) => error,
+            Aim::Path(..) => error.max(tolerance).hypot(missing),
+        }
+    }
+
+    /// Most halvings of a step.
+    fn halvings(&self) -> usize {
+        match self {
+            Aim::Load(_) => 10,
+            Aim::Path(..) => 8,
+        }
+    }
+
+    fn singular(&self) -> &'static str {
+        match self {
+            Aim::Load(_) => "the tangent is singular: nothing holds what slides or opens",
+            Aim::Path(..) => "the path is singular",
+        }
+    }
+
+    fn unanswered(&self) -> &'static str {
+        match self {
+            Aim::Load(_) => "the laws have no answer along the correction",
+            Aim::Path(..) => "the laws have no answer along the path",
+        }
+    }
+}
+
+/// The best of the steps tried, from a full one down: the first that reduces what is left enough.
+fn search_line<L: Respond>(
     form: &impl Form,
     laws: &L,
-    x: &[f64],
-    correction: &[f64],
-    target: &[f64],
-    error: f64,
-) -> Option<(Vec<f64>, Evaluation<L::Memory>)> {
-    let (mut step, mut best) = (1.0, None);
-    for _ in 0..=HALVINGS {
+    ((x, level), now): ((&[f64], f64), &Evaluation<L::Memory>),
+    (correction, change): (&[f64], f64),
+    (aim, missing): (&Aim, f64),
+    tolerance: f64,
+) -> Option<(Vec<f64>, f64, Evaluation<L::Memory>)> {
+    let before = aim.merit(now.error.max(tolerance), missing, tolerance); // below that rounding decides
+    let (mut step, mut best) = (1.0, None::<(f64, (Vec<f64>, f64, Evaluation<L::Memory>))>);
+    for _ in 0..=aim.halvings() {
         let next: Vec<f64> = x.iter().zip(correction).map(|(x, d)| x + step * d).collect();
-        if let Ok(there) = evaluate(form, laws, &next, target)
-            && there.error.is_finite()
-        {
-            let enough = there.error <= (1.0 - SUFFICIENT * step) * error;
-            if best
-                .as_ref()
-                .is_none_or(|(_, kept): &(Vec<f64>, Evaluation<L::Memory>)| there.error < kept.error)
-            {
-                best = Some((next, there));
-            }
-            if enough {
-                break;
+        let next_level = level + step * change;
+        if let Ok(there) = evaluate(form, laws, &next, &aim.target(next_level)) {
+            let value = aim.merit(there.error, aim.missing(form, laws, &there), tolerance);
+            if value.is_finite() {
+                if best.as_ref().is_none_or(|(kept, _)| value < *kept) {
+                    best = Some((value, (next, next_level, there)));
+                }
+                if value <= (1.0 - SUFFICIENT * step) * before {
+                    break;
+                }
             }
         }
         step *= 0.5;
     }
-    best
+    best.map(|(_, best)| best)
 }

@@ -17,7 +17,7 @@ use crate::history::converged::{Converged, PointResponse};
 use crate::history::loading::StepLoad;
 use crate::law;
 use crate::output::Snapshot;
-use crate::solver::{Affine, Form};
+use crate::solver::{Affine, Form, ask, corrected};
 
 /// A change of the traction is elastic within this part of it, and of what rounding leaves of the jump.
 const LINEAR: f64 = 1e-9;
@@ -72,7 +72,7 @@ fn over_the_middle<F: Form>(
     found: &Converged,
     way: Way,
 ) -> Option<Estimate> {
-    let View { problem, prepared, form, newton, .. } = *view;
+    let View { problem, prepared, form, .. } = *view;
     let target_of = |load| target(form, prepared, load).ok();
     let target = target_of(way.middle)?;
     let laws = Laws { problem, old, viscosity: None, lags: false, held: None };
@@ -86,7 +86,7 @@ fn over_the_middle<F: Form>(
         }
         None => None,
     };
-    let [halfway, corrected] = newton.corrected(form, &laws, &x, &target, across).ok()?;
+    let [halfway, corrected] = corrected(form, &laws, &x, &target, across).ok()?;
     // a point that changes its mode in the second half leads the correction astray
     let better = if corrected.residuals[0] < halfway.residuals[0] { &corrected } else { &halfway };
     let mut states = old.to_vec();
@@ -94,7 +94,7 @@ fn over_the_middle<F: Form>(
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
     let onwards = Laws { problem, old: &states, viscosity: None, lags: false, held: None };
-    let end = newton.look(form, &onwards, view.found).ok()?;
+    let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
     for (a, of) in found.joints.iter().enumerate() {

@@ -7,7 +7,7 @@ use crate::history::converged::Converged;
 use crate::history::loading::StepLoad;
 use crate::law;
 use crate::problem::Problem;
-use crate::solver::{Form, NewtonSettings};
+use crate::solver::{Form, NewtonSettings, along, ask};
 
 /// Intact points of softening laws that crack in a part after others do; none if all crack at once.
 pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged) -> Option<Vec<Vec<bool>>> {
@@ -43,10 +43,10 @@ pub(super) fn crack<F: Form>(
     let target = target(&*view.form, view.prepared, end).ok()?;
     let laws = Laws { problem, old, viscosity: None, lags: false, held: Some(&held) };
     let (form, newton) = (&mut *view.form, &mut *view.newton);
-    let here = newton.look(form, &laws, view.found).ok()?;
+    let here = ask(form, &laws, view.found).ok()?;
     let residual = form.residual(view.found, &here.forces, &target);
     let change = residual.iter().map(|r| -r).collect();
-    let there = newton.along(form, &laws, view.found, &target, change, settings).ok()?;
+    let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.joints()[k].jumps_of(&coefficients);
         for ((jump, old), held) in jumps.chunks_exact(2).zip(&old[k]).zip(&held[k]) {
@@ -76,7 +76,7 @@ pub(super) fn first_onset<F: Form>(
         Some(end) => end,
         None => {
             let change = target.iter().zip(&before).map(|(b, a)| b - a).collect();
-            newton.along(form, &laws, view.unknowns, &before, change, settings).ok()?
+            along(newton, form, &laws, view.unknowns, &before, change, settings).ok()?
         }
     };
     let mut first = 1.0_f64;

@@ -12,7 +12,7 @@ use crate::history::state::ModelState;
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Constraint, Form, Iterate, LinearMeasure, Newton, NewtonSettings, NodalSolution,
-    NotPositiveDefinite, PathPoint, Ramp,
+    NotPositiveDefinite, PathPoint, Ramp, ahead, leave,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -57,8 +57,8 @@ impl<'a, F> NewtonEngine<'a, F> {
 impl<F: Form> NewtonEngine<'_, F> {
     fn view(&self) -> Option<View<'_, F>> {
         let (problem, prepared) = (self.problem, self.prepared);
-        let (_, form, newton) = self.form.as_ref()?;
-        Some(View { problem, prepared, form, newton, unknowns: &self.search.unknowns, found: &self.found.0 })
+        let (_, form, _) = self.form.as_ref()?;
+        Some(View { problem, prepared, form, unknowns: &self.search.unknowns, found: &self.found.0 })
     }
 
     fn view_mut(&mut self) -> Option<ViewMut<'_, F>> {
@@ -268,8 +268,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             Ok(PathPoint { x, level: level + path.ahead * path.last })
         } else {
             match path.amount {
-                Some(amount) => newton.leave(form, &laws, &from, &load, amount, self.settings),
-                None => newton.ahead(form, &laws, &from, &load, path.last, self.settings),
+                Some(amount) => leave(newton, form, &laws, &from, &load, amount, self.settings),
+                None => ahead(newton, form, &laws, &from, &load, path.last, self.settings),
             }
         };
         let start = start.map_err(Failure::Unconverged)?;

@@ -11,7 +11,6 @@ pub(super) struct View<'a, F> {
     /// The step's loads are prepared.
     pub(super) prepared: bool,
     pub(super) form: &'a F,
-    pub(super) newton: &'a Newton,
     /// Unknowns at the last accepted increment, and of what was found last.
     pub(super) unknowns: &'a [f64],
     pub(super) found: &'a [f64],

@@ -1,0 +1,55 @@
+//! Iterates of a search: its settings, where it stands, and why it ended.
+
+use serde::{Deserialize, Serialize};
+
+/// When Newton ends, and with which tangent it goes.
+#[derive(Debug, Clone, Copy)]
+pub struct NewtonSettings {
+    /// Largest relative residual of a solution.
+    pub tolerance: f64,
+    /// Most iterations.
+    pub iterations: usize,
+    /// Give up if the residual has not halved in so many iterations.
+    pub patience: usize,
+    /// Stay with the tangent of the intact joints: linear convergence only.
+    pub initial_tangent: bool,
+}
+
+/// A solution, or where Newton stands.
+#[derive(Debug)]
+pub struct Iterate<M> {
+    /// The unknowns of the form.
+    pub x: Vec<f64>,
+    /// Jumps (n, t, …) at the law points of every active joint.
+    pub jumps: Vec<Vec<f64>>,
+    /// Tractions alike.
+    pub tractions: Vec<Vec<f64>>,
+    /// Forces q on the jump coefficients of every active joint.
+    pub forces: Vec<Vec<f64>>,
+    /// What the law points remember.
+    pub memory: Vec<Vec<M>>,
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// Relative residual before every iteration and at the end.
+    pub residuals: Vec<f64>,
+}
+
+/// Why Newton ended without equilibrium.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Unconverged {
+    /// In words.
+    pub reason: String,
+    /// Joint and law point that are farthest from equilibrium.
+    pub worst: Vec<(usize, usize)>,
+    /// Linear systems solved.
+    pub iterations: usize,
+}
+
+/// Where a search stands: unknowns and load level.
+#[derive(Debug, Clone)]
+pub struct PathPoint {
+    /// The unknowns of the form.
+    pub x: Vec<f64>,
+    /// Load level.
+    pub level: f64,
+}
