@@ -78,21 +78,26 @@ fn bare(problem: &Problem) -> Result<f64, String> {
     let pattern = model.pattern();
     let continuum = model.continuum(&pattern);
     let stiffness: Vec<Vec<f64>> =
-        model.joints.iter().map(|joint| SPRINGS.repeat(joint.coupling.points.len())).collect();
-    let system =
-        System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
+        model.interfaces.iter().map(|interface| SPRINGS.repeat(interface.coupling.points.len())).collect();
+    let system = System {
+        interfaces: &model.interfaces,
+        stiffness: &stiffness,
+        pattern: &pattern,
+        continuum: &continuum,
+    };
     let plan = FactorPlan::analyse(&pattern, &model.coordinates()).map_err(|e| format!("{e:?}"))?;
-    let stage = &problem.stages[0];
-    let linear = Linear::new(system, &plan, &stage.held).map_err(|e| format!("{e:?}"))?;
-    let force = stage.force(model, 1.0).map_err(|e| e.to_string())?;
+    let step = &problem.steps[0];
+    let linear = Linear::new(system, &plan, &step.constrained).map_err(|e| format!("{e:?}"))?;
+    let force = step.force(model, 1.0).map_err(|e| e.to_string())?;
     let u = linear.solve(&force, &vec![0.0; model.dofs()]).u;
     let mut stored = 0.0;
-    for (b, body) in model.bodies.iter().enumerate() {
-        stored += recover(&body.mesh, &u[model.dofs_of(b)], &body.elasticity, model.thickness).energy;
+    for (b, subdomain) in model.subdomains.iter().enumerate() {
+        stored +=
+            recover(&subdomain.mesh, &u[model.dofs_of(b)], &subdomain.elasticity, model.thickness).energy;
     }
-    for joint in &model.joints {
-        let jumps = joint.jumps(&u);
-        for (point, r) in joint.coupling.points.iter().zip(jumps.chunks_exact(2)) {
+    for interface in &model.interfaces {
+        let jumps = interface.jumps(&u);
+        for (point, r) in interface.coupling.points.iter().zip(jumps.chunks_exact(2)) {
             stored += 0.5 * model.thickness * point.weight * SPRINGS[0] * (r[0] * r[0] + r[1] * r[1]);
         }
     }

@@ -39,12 +39,12 @@ fn problem(dofs: usize) -> Problem {
     bound.unwrap_or_else(|error| unreachable!("{error}"))
 }
 
-fn held(problem: &Problem) -> &[bool] {
-    &problem.stages[0].held
+fn constrained(problem: &Problem) -> &[bool] {
+    &problem.steps[0].constrained
 }
 
-fn condense(continuum: &Continuum, held: &[bool]) -> Condensation {
-    continuum.condense(held).unwrap_or_else(|error| unreachable!("{error:?}"))
+fn condense(continuum: &Continuum, constrained: &[bool]) -> Condensation {
+    continuum.condense(constrained).unwrap_or_else(|error| unreachable!("{error:?}"))
 }
 
 fn continuum(problem: &Problem) -> Continuum {
@@ -75,12 +75,12 @@ fn pairing(bencher: Bencher, dofs: usize) {
     });
 }
 
-/// Every law point of the joint once: tractions and stiffness.
+/// Every law point of the interface once: tractions and stiffness.
 fn law_points(problem: &Problem, tractions: &mut Vec<f64>, stiffness: &mut Vec<f64>) {
     tractions.clear();
     stiffness.clear();
     let (law, _) = &problem.laws[0];
-    let points = problem.model.joints[0].coupling.points.len();
+    let points = problem.model.interfaces[0].coupling.points.len();
     for p in 0..points {
         let slip = 2e-6 * p as f64 / points as f64; // half of them slide
         let jump = black_box(Vector2::new(-1e-6, slip));
@@ -105,9 +105,9 @@ fn whole_factor(bencher: Bencher, dofs: usize) {
     let model = &problem.model;
     let pattern = model.pattern();
     let mut matrix = model.continuum(&pattern);
-    let springs = SPRINGS.repeat(model.joints[0].coupling.points.len());
-    add_stiffness(&model.joints[0], &pattern, &springs, &mut matrix);
-    matrix.hold(&pattern, held(&problem));
+    let springs = SPRINGS.repeat(model.interfaces[0].coupling.points.len());
+    add_stiffness(&model.interfaces[0], &pattern, &springs, &mut matrix);
+    matrix.hold(&pattern, constrained(&problem));
     let plan =
         FactorPlan::analyse(&pattern, &model.coordinates()).unwrap_or_else(|error| unreachable!("{error:?}"));
     bencher.bench_local(|| {
@@ -119,30 +119,31 @@ fn whole_factor(bencher: Bencher, dofs: usize) {
 fn condensation(bencher: Bencher, dofs: usize) {
     let problem = problem(dofs);
     let continuum = continuum(&problem);
-    bencher.bench_local(|| condense(black_box(&continuum), held(&problem)));
+    bencher.bench_local(|| condense(black_box(&continuum), constrained(&problem)));
 }
 
 /// Law, forces, tangent, factor, solve and residual, with every tangent new.
 #[divan::bench(args = SIZES, sample_count = 10)]
 fn newton_step(bencher: Bencher, dofs: usize) {
     let problem = problem(dofs);
-    let (held, joints) = (held(&problem), &problem.model.joints);
-    let springs = [SPRINGS.repeat(joints[0].coupling.points.len())];
+    let (constrained, interfaces) = (constrained(&problem), &problem.model.interfaces);
+    let springs = [SPRINGS.repeat(interfaces[0].coupling.points.len())];
     let continuum = continuum(&problem);
-    let base = Base::new(&continuum, Arc::new(condense(&continuum, held)), joints, &springs, held);
+    let base =
+        Base::new(&continuum, Arc::new(condense(&continuum, constrained)), interfaces, &springs, constrained);
     let mut form =
         Condensed::new(base.unwrap_or_else(|error| unreachable!("{error:?}")), &[0], &springs, &springs);
-    let mut tangents = [InterfaceTangent::new(&joints[0])];
+    let mut tangents = [InterfaceTangent::new(&interfaces[0])];
     let (mut tractions, mut stiffness) = (Vec::new(), Vec::new());
-    let mut x = vec![1e-6; joints[0].size()];
+    let mut x = vec![1e-6; interfaces[0].size()];
     let target = x.clone();
     let mut turn = 0.0;
     bencher.bench_local(|| {
         turn += 1.0;
         law_points(&problem, &mut tractions, &mut stiffness);
         stiffness.iter_mut().for_each(|d| *d *= 1.0 + 1e-9 * turn); // the last tangent would be used again
-        let forces = [joints[0].gather(&tractions)];
-        tangents[0].fill(&joints[0], &stiffness);
+        let forces = [interfaces[0].gather(&tractions)];
+        tangents[0].fill(&interfaces[0], &stiffness);
         let mut correction = form.residual(&x, &forces, &target);
         form.factor(&tangents);
         form.solve(&mut correction);

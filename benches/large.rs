@@ -39,11 +39,11 @@ fn measure(dofs: usize) -> Result<(), String> {
 
     let pattern = timed("pattern", || model.pattern());
     let mut matrix = timed("continuum", || model.continuum(&pattern));
-    for joint in &model.joints {
-        let stiffness = [1e7, 0.0, 0.0, 1e7].repeat(joint.coupling.points.len());
-        timed("joint", || add_stiffness(joint, &pattern, &stiffness, &mut matrix));
+    for interface in &model.interfaces {
+        let stiffness = [1e7, 0.0, 0.0, 1e7].repeat(interface.coupling.points.len());
+        timed("joint", || add_stiffness(interface, &pattern, &stiffness, &mut matrix));
     }
-    matrix.hold(&pattern, &problem.stages[0].held);
+    matrix.hold(&pattern, &problem.steps[0].constrained);
     let coordinates = model.coordinates();
     let order = timed("nested dissection", || nested_dissection(&pattern, &coordinates));
     let joined = timed("symbolic", || Symbolic::with_order(&pattern, &order));
@@ -60,8 +60,8 @@ fn measure(dofs: usize) -> Result<(), String> {
     let equations = Equations::new(&problem, Means::default(), &mut clock).map_err(|e| e.to_string())?;
     let mut history = History::new(&problem, &equations, clock);
     while history.next().map_err(|e| e.to_string())?.is_some() {}
-    for (stage, seconds) in history.clock().stages() {
-        println!("    march: {stage:<20} {seconds:8.3} s");
+    for (step, seconds) in history.clock().stages() {
+        println!("    march: {step:<20} {seconds:8.3} s");
     }
     if let Some(peak) = memory::peak() {
         println!("    {:<27} {}", "peak memory so far", memory::gigabytes(peak));
@@ -77,9 +77,9 @@ fn factor(plan: &FactorPlan, pattern: &Pattern, matrix: &Symmetric) -> Result<()
     Ok(())
 }
 
-fn timed<T>(stage: &str, work: impl FnOnce() -> T) -> T {
+fn timed<T>(step: &str, work: impl FnOnce() -> T) -> T {
     let start = Instant::now();
     let result = work();
-    println!("    {stage:<27} {:8.3} s", start.elapsed().as_secs_f64());
+    println!("    {step:<27} {:8.3} s", start.elapsed().as_secs_f64());
     result
 }

@@ -27,8 +27,8 @@ const LAW: Cracking = Cracking {
     alpha_dilatancy_cohesion: 0.0,
 };
 
-fn respond(law: Cracking, jump: [f64; 2], old: &State, stepping: Integration) -> Response {
-    let answer = Law::Cracking(law).respond(Vector2::from(black_box(jump)), black_box(old), stepping);
+fn respond(law: Cracking, jump: [f64; 2], old: &State, integration: Integration) -> Response {
+    let answer = Law::Cracking(law).respond(Vector2::from(black_box(jump)), black_box(old), integration);
     answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"))
 }
 

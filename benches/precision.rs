@@ -4,7 +4,7 @@
 //!   f64: one factor, two substitutions (a solve and its refinement)      f32: one factor, as many as the residual asks for
 //! ```
 //!
-//! The strip of two layers in one body's place: no joint, so that the matrix is as well conditioned as it gets.
+//! The strip of two layers in one body's place: no interface, so that the matrix is as well conditioned as it gets.
 
 use std::time::Instant;
 
@@ -47,8 +47,8 @@ fn measure(dofs: usize) -> Result<(), String> {
     let model = &problem.model;
     let pattern = model.pattern();
     let mut matrix = model.continuum(&pattern);
-    matrix.hold(&pattern, &problem.stages[0].held);
-    let f = problem.stages[0].force(model, 1.0).map_err(|e| e.to_string())?;
+    matrix.hold(&pattern, &problem.steps[0].constrained);
+    let f = problem.steps[0].force(model, 1.0).map_err(|e| e.to_string())?;
     let order = nested_dissection(&pattern, &model.coordinates());
     let threshold = SupernodalThreshold::FORCE_SUPERNODAL;
     let params = CholeskySymbolicParams { supernodal_flop_ratio_threshold: threshold, ..Default::default() };

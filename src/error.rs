@@ -13,24 +13,24 @@ pub type Result<T> = std::result::Result<T, Error>;
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A wrong value, key or name in a text file the user wrote (scene, path, study).
-    #[error("{at}: {what}; {cure}")]
+    #[error("{at}: {what}; {help}")]
     Text {
         /// Where in which file.
         at: Box<At>,
         /// What is wrong there.
         what: String,
         /// What would have been right.
-        cure: String,
+        help: String,
     },
     /// A geometry or mesh file that cannot be used.
-    #[error("{}: {what}; {cure}", file.display())]
+    #[error("{}: {what}; {help}", file.display())]
     Mesh {
         /// The `.geo` or `.msh` file.
         file: PathBuf,
         /// What is wrong with it.
         what: String,
         /// What would have been right.
-        cure: String,
+        help: String,
     },
     /// gmsh read the geometry and refused it.
     #[error("{}: gmsh {outcome}\n{}", file.display(), indent(tail))]
@@ -43,22 +43,22 @@ pub enum Error {
         tail: Vec<String>,
     },
     /// Two sides that cannot be joined.
-    #[error("interface {name}: {what}; {cure}")]
+    #[error("interface {name}: {what}; {help}")]
     Interface {
         /// Name of the interface in the scene.
         name: String,
         /// What is wrong.
         what: String,
         /// What would have been right.
-        cure: String,
+        help: String,
     },
-    /// A body that the supports and joints do not hold.
+    /// A body that the supports and interfaces do not hold.
     #[error(
-        "{body} can move freely: {mode}; hold it with \"fix\" or \"displace\", or join it by an interface with stiffness in that direction"
+        "{subdomain} can move freely: {mode}; hold it with \"fix\" or \"displace\", or join it by an interface with stiffness in that direction"
     )]
     FreeBody {
         /// Name of the subdomain.
-        body: String,
+        subdomain: String,
         /// The free rigid motion, such as "translation in x".
         mode: String,
     },
@@ -75,14 +75,14 @@ pub enum Error {
         kept: usize,
     },
     /// A program that midplane needs is missing, was killed or ran out of time.
-    #[error("{program}: {what}; {cure}")]
+    #[error("{program}: {what}; {help}")]
     Program {
         /// Name of the program.
         program: String,
         /// What happened.
         what: String,
         /// What to do about it.
-        cure: String,
+        help: String,
     },
     /// The file system refused.
     #[error("cannot {action} {}: {source}", path.display())]
@@ -103,7 +103,7 @@ pub struct At {
     pub file: PathBuf,
     /// Line from 1, 0 if the place is the whole file.
     pub line: usize,
-    /// Path of the key, such as `interfaces.joint.side_b`; empty for the whole file.
+    /// Path of the key, such as `interfaces.interface.side_b`; empty for the whole file.
     pub key: String,
     /// The text of the file, for the excerpt below the message.
     pub text: String,
@@ -148,8 +148,8 @@ impl Error {
     }
 
     /// Shorthand for a mesh error.
-    pub fn mesh(file: impl Into<PathBuf>, what: impl Into<String>, cure: impl Into<String>) -> Error {
-        Error::Mesh { file: file.into(), what: what.into(), cure: cure.into() }
+    pub fn mesh(file: impl Into<PathBuf>, what: impl Into<String>, help: impl Into<String>) -> Error {
+        Error::Mesh { file: file.into(), what: what.into(), help: help.into() }
     }
 
     /// Shorthand for a file system error.
@@ -159,8 +159,8 @@ impl Error {
     }
 }
 
-/// "it has a, b, c. Did you mean \"b\"?": the cure for a name that is not among `available`.
-pub fn name_cure<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>) -> String {
+/// "it has a, b, c. Did you mean \"b\"?": the help for a name that is not among `available`.
+pub fn name_help<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<&str> = available.into_iter().collect();
     if names.is_empty() {
         return "there are none".into();
@@ -170,11 +170,11 @@ pub fn name_cure<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>)
         .map(|name| (strsim::damerau_levenshtein(wanted, name), name))
         .min_by_key(|(distance, _)| *distance)
         .filter(|(distance, name)| *distance <= 1 + name.chars().count() / 3);
-    let mut cure = format!("there is {}", names.join(", "));
+    let mut help = format!("there is {}", names.join(", "));
     if let Some((_, name)) = close {
-        cure.push_str(&format!(". Did you mean \"{name}\"?"));
+        help.push_str(&format!(". Did you mean \"{name}\"?"));
     }
-    cure
+    help
 }
 
 fn indent(lines: &[String]) -> String {
@@ -187,8 +187,8 @@ mod tests {
 
     #[test]
     fn a_misspelt_name_gets_a_suggestion_and_a_foreign_one_does_not() {
-        assert_eq!(name_cure("botom", ["bottom", "top"]), "there is bottom, top. Did you mean \"bottom\"?");
-        assert_eq!(name_cure("zzz", ["bottom", "top"]), "there is bottom, top");
-        assert_eq!(name_cure("zzz", []), "there are none");
+        assert_eq!(name_help("botom", ["bottom", "top"]), "there is bottom, top. Did you mean \"bottom\"?");
+        assert_eq!(name_help("zzz", ["bottom", "top"]), "there is bottom, top");
+        assert_eq!(name_help("zzz", []), "there are none");
     }
 }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! K is the linear elastic continuum; B, M, N, R, w are the coupling of two unmatched sides through the mid-plane
-//! of their joint; t is the interface law.
+//! of their interface; t is the interface law.
 //!
 //! Sign convention, everywhere: the jump is u_B − u_A, the normal n points from side A to side B, the tangent t is
 //! n turned clockwise (chain A runs along t with n on its left), opening and tension are positive. Components of

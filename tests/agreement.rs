@@ -1,4 +1,4 @@
-//! Claim: on the jumps of the joints, by blocks with the bodies' motions, and on all displacements the same is found, in every scene of the gallery that does not
+//! Claim: on the jumps of the interfaces, by blocks with the bodies' motions, and on all displacements the same is found, in every scene of the gallery that does not
 //! localise: displacements to 1e-10, tractions to max(1e-9, 100 ε K_N h/E), of the largest value of the field.
 
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use midplane::problem::stiffness_number;
 use midplane::run::{Options, prepare};
 
 /// Scene files of the gallery. Not among them are those on a path that chooses its own steps, those whose cracks choose
-/// between equal places by rounding, and the rough joint, which snaps (tests/confinement.rs has it in every form).
+/// between equal places by rounding, and the rough interface, which snaps (tests/confinement.rs has it in every form).
 fn scenes() -> Vec<PathBuf> {
     let geo = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo");
     let mut files: Vec<PathBuf> = std::fs::read_dir(geo)
@@ -27,7 +27,7 @@ fn scenes() -> Vec<PathBuf> {
     files
 }
 
-/// All increments of a scene, and the largest K_N h/E of its joints.
+/// All increments of a scene, and the largest K_N h/E of its interfaces.
 fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f64) {
     let options = Options {
         scene: file.to_path_buf(),
@@ -46,8 +46,8 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f
             states.push(history.state().clone());
         }
     }
-    let joints = problem.model.joints.iter().zip(&problem.laws);
-    let numbers = joints.map(|(joint, (law, _))| stiffness_number(&problem.model, joint, law));
+    let interfaces = problem.model.interfaces.iter().zip(&problem.laws);
+    let numbers = interfaces.map(|(interface, (law, _))| stiffness_number(&problem.model, interface, law));
     (states, numbers.fold(0.0, f64::max))
 }
 

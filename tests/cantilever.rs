@@ -3,7 +3,7 @@
 //!
 //! ```text
 //!   ▐───────────────────┐│     layers 2 m × 0.5 m, E = 1e4 MPa, ν = 0.3, plane strain, Q4
-//!   ▐─────── joint ─────┤│ 1 MPa
+//!   ▐─────── interface ─────┤│ 1 MPa
 //!   ▐───────────────────┘▼     n edges along, round(n/4) and at least 2 rows
 //! ```
 //!
@@ -32,7 +32,7 @@ fn cantilever(x_a: &[f64], x_b: &[f64], kn: f64, coupling: &str) -> (f64, f64, f
     );
     let problem = bind(&text, vec![lower, upper]).unwrap();
     let (states, _) = solve(&problem);
-    let points = &problem.model.joints[0].coupling.points;
+    let points = &problem.model.interfaces[0].coupling.points;
     let inner = points
         .iter()
         .zip(&states[0].snapshot.tractions[0])

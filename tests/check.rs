@@ -19,7 +19,7 @@ fn squares() -> TempDir {
 
 /// 3 edges against 5: 3 + 5 − 1 segments, three grid cells, K_N h/E = 1e7 · ⅓ / 1e4.
 #[test]
-fn the_table_has_every_number_of_a_joint() {
+fn the_table_has_every_number_of_a_interface() {
     let folder = squares();
     let output = midplane(folder.path(), &["check", ".", "-o", "out"]);
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -28,7 +28,7 @@ fn the_table_has_every_number_of_a_joint() {
     let columns: Vec<&str> = row.split_whitespace().collect();
     assert_eq!(columns, ["joint", "3:5", "0.60", "7", "4", "1.000000", "0.0e0", "0.0e0", "0.0°", "3.33e2"]);
     // the group that no key and no probe names is told, in a check only
-    let told = "warning: W09 subdomain upper: nothing uses its group corner\n         cure: ";
+    let told = "warning: W09 subdomain upper: nothing uses its group corner\n         help: ";
     assert!(err.starts_with(told) && err.lines().count() == 2, "{err}");
     let run = midplane(folder.path(), &["run", ".", "-o", "out"]);
     assert!(run.status.success() && run.stderr.is_empty(), "{}", String::from_utf8_lossy(&run.stderr));
@@ -70,7 +70,7 @@ fn warnings(n: [usize; 2], settings: &str, place: impl Fn(f64, f64) -> [f64; 2] 
 }
 
 #[test]
-fn what_spoils_a_joint_is_warned_of_and_nothing_else() {
+fn what_spoils_a_interface_is_warned_of_and_nothing_else() {
     let flat = |x: f64, y: f64| [x, y];
     let pointwise = "\"coupling\": \"pointwise\",";
     assert!(warnings([3, 5], "", flat).is_empty());

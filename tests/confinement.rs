@@ -33,9 +33,10 @@ fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: u
     let march = try_solve(&problem);
     let totals = march.end.unwrap_or_else(|error| panic!("{what}: {error}"));
     let shear = |state: &midplane::history::ModelState| state.probes(&problem)[0];
-    let fifth = |level: f64| (5.0 * level - (5.0 * level).round()).abs() < 1e-9;
+    let fifth = |load_factor: f64| (5.0 * load_factor - (5.0 * load_factor).round()).abs() < 1e-9;
     let rows = march.states.iter().zip(&march.load_factors).skip(1);
-    let curve: Vec<f64> = rows.filter(|(_, level)| fifth(**level)).map(|(state, _)| shear(state)).collect();
+    let curve: Vec<f64> =
+        rows.filter(|(_, load_factor)| fifth(**load_factor)).map(|(state, _)| shear(state)).collect();
     for state in &march.states {
         assert!(state.residual <= 1e-6, "{what}: residual {:e}", state.residual);
     }
@@ -167,8 +168,8 @@ fn friction_alone_is_left_after_a_long_slide() {
 }
 
 #[test]
-fn a_joint_that_dilates_rises_alike_in_any_increments() {
-    // stiff asperities: over a straight way of 0.05 mm the joint would press or open by more than it is pressed
+fn a_interface_that_dilates_rises_alike_in_any_increments() {
+    // stiff asperities: over a straight way of 0.05 mm the interface would press or open by more than it is pressed
     let law = Cracking { dilatancy_stress: 1.0, ..ROCK };
     let rise = |increments: usize, strategy: &str| {
         let solution = format!(r#""strategy": "{strategy}""#);
@@ -185,7 +186,7 @@ fn a_joint_that_dilates_rises_alike_in_any_increments() {
             close(t, -0.8785 * n, 1e-3, 0.8785 * 0.5, "friction alone at a point");
         }
         assert!(totals.released > 0.0 && totals.energy_balance < 5e-3, "{increments}");
-        let points = problem.model.joints[0].coupling.points.iter().zip(&last.snapshot.states[0]);
+        let points = problem.model.interfaces[0].coupling.points.iter().zip(&last.snapshot.states[0]);
         let rise = points.map(|(point, state)| point.weight * state.jump_plastic.x).sum::<f64>();
         println!(
             "{strategy}, {increments}: rise {rise:e}, dissipated {:e}, released {:e}, balance {:.1e}, {} parts",
@@ -227,7 +228,7 @@ fn ten_further_laws_reach_the_end() {
 
 #[test]
 #[ignore = "long: make confinement"]
-fn stiff_joints_that_dilate_and_slide_far_reach_their_end() {
+fn stiff_interfaces_that_dilate_and_slide_far_reach_their_end() {
     // K_N times the slide is 1e7 times what is carried: rounding leaves 1e-10 of it
     for (dilatancy_stress, energy) in [(1.0, 2e-5), (6.0, 2e-4), (6.0, 2e-5)] {
         let law = Cracking { stiffness: 1e8, dilatancy_stress, energies: [energy, 2e-3], ..ROCK };

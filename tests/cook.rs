@@ -35,7 +35,7 @@ fn cook_with_a_cut() {
         );
         let problem = bind(&text, vec![mesh([0.0, 24.0], 24), mesh([24.0, 48.0], 40)]).unwrap();
         let state = solve(&problem).0.remove(0);
-        let points = &problem.model.bodies[1].mesh.points;
+        let points = &problem.model.subdomains[1].mesh.points;
         let node = points.iter().position(|p| (p[0] - 48.0).hypot(p[1] - 52.0) < 1e-9).unwrap();
         let got = displacement(&problem, &state, 1, node)[1];
         println!("K = {k}: {got:.5}, exact {exact:.5}, {:+.1e}", got / exact - 1.0);

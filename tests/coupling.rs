@@ -15,7 +15,7 @@ fn join(a: Side, b: Side, kind: JumpScheme, points: Points) -> midplane::error::
     Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed })
 }
 
-/// A joint along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.
+/// An interface along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.
 struct Line {
     points_a: Vec<[f64; 2]>,
     points_b: Vec<[f64; 2]>,
@@ -40,7 +40,7 @@ impl Line {
         join(a, b, kind, points).unwrap()
     }
 
-    /// The same joint with A and B exchanged.
+    /// The same interface with A and B exchanged.
     fn couple_swapped(&self, kind: JumpScheme) -> Coupling {
         let back = edges(self.points_a.len(), true);
         let forth = edges(self.points_b.len(), false);
@@ -265,7 +265,7 @@ fn places() -> impl Strategy<Value = Vec<f64>> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Claim: exchanging A and B, or turning the joint around, gives the same operator.
+    /// Claim: exchanging A and B, or turning the interface around, gives the same operator.
     #[test]
     fn labels_do_not_matter(s_a in places(), s_b in places(), degrees in 0.0f64..360.0) {
         let line = Line::new(&s_a, &s_b, degrees, 0.0);

@@ -26,7 +26,7 @@ struct Run {
     snaps: usize,
 }
 
-/// The scene of the gallery with so many edges along the joint, opened to 4 mm.
+/// The scene of the gallery with so many edges along the interface, opened to 4 mm.
 fn run(lower: usize, upper: usize, increments: usize) -> Run {
     run_to("4e-3", "auto", lower, upper, increments)
 }

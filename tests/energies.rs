@@ -153,8 +153,8 @@ fn what_is_left_stays_below_the_tolerance() {
 }
 
 #[test]
-fn an_elastic_joint_stores_half_the_work_of_its_traction() {
-    // 10 MPa on 0.2 m over 0.2 m of E = 1e4 and a joint of 1e7 MPa/m
+fn an_elastic_interface_stores_half_the_work_of_its_traction() {
+    // 10 MPa on 0.2 m over 0.2 m of E = 1e4 and an interface of 1e7 MPa/m
     let stored = "/output/history/stored=energy.stored".to_string();
     let exact = 0.5 * 10.0 * 0.2 * 10.0 * (0.2 / 1e4 + 1.0 / 1e7);
     let ran = run("compression", &[stored]);

@@ -4,7 +4,7 @@
 //! ```text
 //!        p p p p p
 //!       ┌─┬──┬──┬─┐   n_b edges, height h₂
-//!       ├─┴─┬┴──┴─┤   joint, K_N = K_T
+//!       ├─┴─┬┴──┴─┤   interface, K_N = K_T
 //!       └───┴─────┘   n_a edges, height h₁
 //!       △ △ △ △ △
 //! ```
@@ -106,7 +106,7 @@ fn paper_example_1_is_uniform_to_round_off() {
             close(u[1], u_top * ny, 1e-10, u_top, &name);
             errors[2] = errors[2].max((u[0] - u_top * nx).hypot(u[1] - u_top * ny) / u_top.abs());
         }
-        let energy = 0.5 * P * w * -u_top; // bulk 2e-4 and joint 1e-6
+        let energy = 0.5 * P * w * -u_top; // bulk 2e-4 and interface 1e-6
         close(state.stored, energy, 1e-9, energy, &name);
         close(state.work, energy, 1e-9, energy, &name);
     }
@@ -118,7 +118,7 @@ fn paper_example_1_is_uniform_to_round_off() {
     table.finish();
 }
 
-/// ν = 0.25, soft joint, rollers: the layers spread alike, so K_T plays no role (case "soft").
+/// ν = 0.25, soft interface, rollers: the layers spread alike, so K_T plays no role (case "soft").
 #[test]
 fn layers_that_spread_alike_slide_nowhere() {
     let (h1, h2, w, nu, kn, kt) = (0.1, 0.06, 0.2, 0.25, 2.5e5, 1e5);

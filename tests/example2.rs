@@ -1,4 +1,4 @@
-//! Claim: the paper's Example 2 is uniform. Two layers are pressed together, then the nodes of the upper side of the joint
+//! Claim: the paper's Example 2 is uniform. Two layers are pressed together, then the nodes of the upper side of the interface
 //! are moved along those of the lower side, which are held: every law point carries the curve of one point, and the bodies
 //! carry the pressure alone, whatever the meshes, the elements and the coupling.
 //!

@@ -28,7 +28,7 @@ const HELD: &str = r#""fix": { "block.bottom": ["x", "y"] }"#;
 /// Nodal forces at the end of the first step.
 fn forces(mesh: Mesh, load: &str) -> Vec<f64> {
     let problem = square(mesh, &format!(r#"{{ "name": "go", {HELD}, {load} }}"#)).unwrap();
-    problem.stages[0].force(&problem.model, 1.0).unwrap()
+    problem.steps[0].force(&problem.model, 1.0).unwrap()
 }
 
 fn total(force: &[f64], direction: usize) -> f64 {
@@ -51,7 +51,7 @@ fn a_traction_in_x_gives_its_exact_nodal_forces() {
 
 /// ∫ 6 x y dA = 3/2 over the unit square, on coarse triangles and squares; gravity acts on the density 2.
 #[test]
-fn a_body_force_that_varies_has_its_exact_resultant() {
+fn a_subdomain_force_that_varies_has_its_exact_resultant() {
     for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
         let force = forces(unit(2, 1, shape), r#""body_force": { "block": ["6*x*y", "x^4"] }"#);
         close(total(&force, 0), 0.5 * 1.5, 1e-14, 1.0, "∫ 6 x y");
@@ -131,7 +131,7 @@ fn s_is_the_fraction_of_arc_length() {
     };
     let [by_s, by_y] = ["s", "y"].map(|text| {
         let problem = square(unit(2, 5, Shape::Quadrilateral4), &steps(text)).unwrap();
-        problem.stages[0].prescribed(&vec![0.0; problem.model.dofs()], 1.0).unwrap()
+        problem.steps[0].prescribed(&vec![0.0; problem.model.dofs()], 1.0).unwrap()
     });
     assert!(by_s.iter().zip(&by_y).all(|(s, y)| (s - y).abs() < 1e-18) && by_y.contains(&1e-3));
 }
@@ -198,10 +198,10 @@ fn rounding_is_no_conflict_of_supports() {
     square(unit(3, 3, Shape::Quadrilateral4), step).unwrap();
 }
 
-/// t₀(s) on a joint between two blocks that nothing else moves: it relaxes by the jump −t₀/K_N point by point where it is
+/// t₀(s) on an interface between two blocks that nothing else moves: it relaxes by the jump −t₀/K_N point by point where it is
 /// linear, and s counts as the probes do.
 #[test]
-fn an_initial_traction_varies_along_the_joint() {
+fn an_initial_traction_varies_along_the_interface() {
     let lower = rectangle(&even(0.0, 2.0, 3), &even(0.0, 1.0, 2), Shape::Quadrilateral4, |x, y| [x, y]);
     let upper = rectangle(&even(0.0, 2.0, 5), &even(1.0, 2.0, 2), Shape::Triangle3, |x, y| [x, y]);
     for [n, t] in [["2*s", "1 - s"], ["x", "1 - x/2"]] {
@@ -217,7 +217,7 @@ fn an_initial_traction_varies_along_the_joint() {
         let (states, _) = solve(&problem);
         // chain A runs along +x with n up on its left
         for (point, traction) in
-            problem.model.joints[0].coupling.points.iter().zip(&states[0].snapshot.tractions[0])
+            problem.model.interfaces[0].coupling.points.iter().zip(&states[0].snapshot.tractions[0])
         {
             close(traction[0], point.position[0], 1e-14, 2.0, "t_n");
             close(traction[1], 1.0 - 0.5 * point.position[0], 1e-14, 1.0, "t_t");

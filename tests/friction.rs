@@ -34,9 +34,9 @@ fn scene(young: [f64; 2], law: [f64; 3], coupling: &str, steps: &str) -> String 
 
 /// Length that slides, over the whole.
 fn sliding(problem: &Problem, state: &ModelState) -> f64 {
-    let points = problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.states[0]);
+    let points = problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.states[0]);
     let slides = points.filter(|(_, state)| state.status == SLIP).map(|(point, _)| point.weight);
-    slides.sum::<f64>() / problem.model.joints[0].coupling.midplane.length
+    slides.sum::<f64>() / problem.model.interfaces[0].coupling.midplane.length
 }
 
 #[test]
@@ -109,7 +109,7 @@ fn a_rigid_block_pushed_above_its_base() {
             let what = format!("E = {stiff} K_N L, {coupling}");
             assert!(totals.energy_balance < 5e-3, "{what}: balance {:e}", totals.energy_balance);
             let state = &states[16];
-            let points = &problem.model.joints[0].coupling.points;
+            let points = &problem.model.interfaces[0].coupling.points;
             let sum = |c: usize| {
                 points.iter().zip(&state.snapshot.tractions[0]).map(|(p, t)| p.weight * t[c]).sum::<f64>()
             };

@@ -24,27 +24,27 @@ fn close(rows: &[(String, f64)], name: &str, exact: f64, scale: f64) {
     assert!((value - exact).abs() <= 1e-10 * scale.abs(), "{name}: {value}, exact {exact}");
 }
 
-/// σ = diag(−5, −10) MPa in plane strain. Across a joint of normal n the displacement jumps by (σ_n/K_N) n + (τ/K_T) t;
-/// the upper right block is beyond one joint of either kind.
+/// σ = diag(−5, −10) MPa in plane strain. Across an interface of normal n the displacement jumps by (σ_n/K_N) n + (τ/K_T) t;
+/// the upper right block is beyond one interface of either kind.
 #[test]
 fn four_blocks_carry_a_constant_stress() {
     let (xx, yy, e, nu, kn, kt, slope) = (-5.0, -10.0, 1e4, 0.2, 1e5, 5e4, 0.2_f64);
-    let joint = |n: [f64; 2]| {
+    let interface = |n: [f64; 2]| {
         let t = [n[1], -n[0]];
         let (normal, shear) = (n[0] * n[0] * xx + n[1] * n[1] * yy, n[0] * t[0] * xx + n[1] * t[1] * yy);
         let jump = [0, 1].map(|d| normal / kn * n[d] + shear / kt * t[d]);
         (normal, shear, jump)
     };
     let r = slope.hypot(1.0);
-    let (normal, shear, up) = joint([-slope / r, 1.0 / r]);
-    let (.., across) = joint([1.0 / r, slope / r]);
+    let (normal, shear, up) = interface([-slope / r, 1.0 / r]);
+    let (.., across) = interface([1.0 / r, slope / r]);
     let strain = ((1.0 - nu * nu) * yy - nu * (1.0 + nu) * xx) / e;
     let rows = history("four_blocks");
     close(&rows, "traction_n", normal, 10.0);
     close(&rows, "traction_t", shear, 10.0);
     close(&rows, "shortening", 2.0 * strain + up[1] + across[1], 2.0 * strain);
-    for held in ["reaction:sw.corner:x", "reaction:sw.corner:y", "reaction:sw.foot:y"] {
-        close(&rows, held, 0.0, 20.0);
+    for constrained in ["reaction:sw.corner:x", "reaction:sw.corner:y", "reaction:sw.foot:y"] {
+        close(&rows, constrained, 0.0, 20.0);
     }
 }
 

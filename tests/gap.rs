@@ -1,5 +1,5 @@
 //! Claim: faces with an initial gap carry nothing until they meet, then the pressure of springs in series; what they
-//! slid while apart is no slip of the joint.
+//! slid while apart is no slip of the interface.
 //!
 //! ```text
 //!     ┌───────┐ ↓ d, → 1e-4      t_n = 0                               d ≤ g

@@ -1,5 +1,5 @@
 //! Claim: `between` finds the closed curve along which two parts of one mesh touch, and joins it: held as a plate in a
-//! linear displacement field, inclusion and plate follow it as if they were one, up to what the stiff joint gives.
+//! linear displacement field, inclusion and plate follow it as if they were one, up to what the stiff interface gives.
 
 mod common;
 #[path = "common/round.rs"]
@@ -34,17 +34,17 @@ fn two_surfaces_of_one_mesh_are_joined_along_a_circle() {
               "steps": [ {{ "name": "stretch", "displace": {{ "core.bottom": {linear}, "plate.top": {linear} }} }} ] }}"#
         );
         let problem = bind(&text, vec![whole.part(&one).unwrap(), whole.part(&two).unwrap()]).unwrap();
-        let joint = &problem.model.joints[0];
-        assert_eq!((problem.model.joints.len(), joint.name.as_str()), (1, "rim~core~plate"));
-        let c = &joint.coupling.midplane;
+        let interface = &problem.model.interfaces[0];
+        assert_eq!((problem.model.interfaces.len(), interface.name.as_str()), (1, "rim~core~plate"));
+        let c = &interface.coupling.midplane;
         assert!(c.pieces.len() == 1 && c.pieces[0].closed && c.segments.len() == n);
         if !shape.is_quadratic() {
             close(c.length, 2.0 * n as f64 * (PI / n as f64).sin(), 1e-14, 1.0, "perimeter");
         }
         let state = solve(&problem).0.remove(0);
         let (limit, scale) = (10.0 * e / (k * PI / n as f64), 2e-3);
-        for (b, body) in problem.model.bodies.iter().enumerate() {
-            for (i, [x, y]) in body.mesh.points.iter().enumerate() {
+        for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
+            for (i, [x, y]) in subdomain.mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, b, i);
                 close(u[0], 2e-3 * x + 1e-3 * y, limit, scale, &format!("{shape:?} u_x"));
                 close(u[1], 3e-4 * x - 1e-3 * y, limit, scale, &format!("{shape:?} u_y"));

@@ -113,8 +113,8 @@ fn only_the_weakest_interface_of_a_chain_cracks() {
                     let march = try_solve(&problem);
                     let totals = march.end.unwrap_or_else(|error| panic!("{what}: {error}"));
                     let mut most = 0.0_f64;
-                    for (state, level) in march.states.iter().zip(&march.load_factors) {
-                        let u = level * end;
+                    for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
+                        let u = load_factor * end;
                         let s = stress(u, compliance, chi);
                         for (k, tractions) in state.snapshot.tractions.iter().enumerate() {
                             for [traction, _] in tractions {

@@ -25,7 +25,7 @@ const KN: f64 = 1e6;
 /// Blocks under a pressure on the groups `loaded`, on rollers below, joined by interfaces `name: (side_a, side_b)`.
 fn pressed(
     blocks: &[(&str, Mesh)],
-    joints: &[(&str, &str, &str)],
+    interfaces: &[(&str, &str, &str)],
     supports: &str,
     loaded: &[&str],
 ) -> String {
@@ -33,7 +33,7 @@ fn pressed(
         .iter()
         .map(|(name, _)| format!(r#""{name}": {{ "msh": "{name}", "material": "rock" }}"#))
         .collect();
-    let interfaces: Vec<String> = joints
+    let interfaces: Vec<String> = interfaces
         .iter()
         .map(|(name, a, b)| {
             format!(
@@ -54,7 +54,7 @@ fn pressed(
     )
 }
 
-/// Two layers 0..1 wide with the given x of the joint's nodes, meeting at y = 0, in a plane moved by `to`.
+/// Two layers 0..1 wide with the given x of the interface's nodes, meeting at y = 0, in a plane moved by `to`.
 fn layers(x: [&[f64]; 2], shape: Shape, to: impl Fn(f64, f64) -> [f64; 2]) -> (Problem, ModelState) {
     layers_joined(x, shape, KN, to)
 }
@@ -87,8 +87,8 @@ fn error(state: &ModelState) -> f64 {
     all.map(|t| (t[0] + P).abs().max(t[1].abs()) / P).fold(0.0, f64::max)
 }
 
-fn sum_of_segments(problem: &Problem, joint: usize) -> f64 {
-    let segments = &problem.model.joints[joint].coupling.midplane.segments;
+fn sum_of_segments(problem: &Problem, interface: usize) -> f64 {
+    let segments = &problem.model.interfaces[interface].coupling.midplane.segments;
     assert!(segments.iter().all(|g| g.end > g.start));
     segments.iter().map(|g| g.end - g.start).sum()
 }
@@ -104,7 +104,7 @@ fn b1_one_edge_against_a_thousand() {
         let (problem, state) =
             layers([&even(0.0, 1.0, n), &even(0.0, 1.0, 1000)], Shape::Quadrilateral4, |x, y| [x, y]);
         assert!(error(&state) < 1e-9, "{n}:1000: {:e}", error(&state));
-        check(n, 1000, &problem.model.joints[0].coupling);
+        check(n, 1000, &problem.model.interfaces[0].coupling);
     }
     // quadratic sides: a linearly varying traction reaches the nodes as it should
     let (n, m) = (2, 2000);
@@ -145,7 +145,7 @@ fn b2_offsets_of_any_size_are_exact_and_continuous() {
                 let (problem, state) = layers([&even(0.0, 1.0, 8), &x], shape, |x, y| [x, y]);
                 assert!(error(&state) < 1e-11, "d = {d:e} {shape:?}: {:e}", error(&state));
                 assert!((sum_of_segments(&problem, 0) - 1.0).abs() < 1e-14, "d = {d:e}");
-                let segments = problem.model.joints[0].coupling.midplane.segments.len();
+                let segments = problem.model.interfaces[0].coupling.midplane.segments.len();
                 assert!(segments == if d > 1e-13 { 15 } else { 8 } || d == 1e-13, "d = {d:e}: {segments}");
             }
             // a jump that is not uniform follows d without a step
@@ -251,10 +251,10 @@ fn b23_partial_overlap_couples_the_common_length_and_says_so() {
         ("a", rectangle(&even(0.3, 1.7, 9), &even(-0.5, 0.0, 3), Shape::Quadrilateral4, |x, y| [x, y])),
         ("b", rectangle(&even(0.0, 1.0, 7), &even(0.0, 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])),
     ];
-    let joints = [("joint", r#""a.top""#, r#""b.bottom""#)];
-    let text = pressed(&blocks, &joints, r#""a.bottom": ["x", "y"], "b.left": ["x"]"#, &["b.top"]);
+    let interfaces = [("joint", r#""a.top""#, r#""b.bottom""#)];
+    let text = pressed(&blocks, &interfaces, r#""a.bottom": ["x", "y"], "b.left": ["x"]"#, &["b.top"]);
     let problem = bind(&text, blocks.into_iter().map(|(_, mesh)| mesh).collect()).unwrap();
-    let c = &problem.model.joints[0].coupling.midplane;
+    let c = &problem.model.interfaces[0].coupling.midplane;
     assert!((c.length - 0.7).abs() < 1e-15);
     close(c.joined[0], 0.5, 1e-14, 1.0, "share of A");
     close(c.joined[1], 0.7, 1e-14, 1.0, "share of B");
@@ -263,7 +263,7 @@ fn b23_partial_overlap_couples_the_common_length_and_says_so() {
     assert!(said("70.0000 % of side B"), "{:?}", problem.warnings);
     // all of the pressure passes through it
     let state = solve(&problem).0.remove(0);
-    let points = &problem.model.joints[0].coupling.points;
+    let points = &problem.model.interfaces[0].coupling.points;
     let sum: f64 = points.iter().zip(&state.snapshot.tractions[0]).map(|(p, t)| p.weight * t[0]).sum();
     close(sum, -P, 1e-10, P, "resultant");
 }
@@ -298,8 +298,8 @@ fn b25_two_polygons_of_one_arc_carry_nothing_without_load() {
     let ring =
         |n: usize, r: [f64; 2]| round::ring(n, &even(r[0], r[1], 2), Shape::Quadrilateral4, 0.1 * n as f64);
     let blocks = [("a", ring(12, [1.0, 1.5])), ("b", ring(17, [1.5, 2.0]))];
-    let joints = [("joint", r#""a.top""#, r#""b.bottom""#)];
-    let text = pressed(&blocks, &joints, r#""a.bottom": ["x", "y"]"#, &["b.top"])
+    let interfaces = [("joint", r#""a.top""#, r#""b.bottom""#)];
+    let text = pressed(&blocks, &interfaces, r#""a.bottom": ["x", "y"]"#, &["b.top"])
         .replace("\"pressure\": 10", "\"pressure\": 0");
     let problem = bind(&text, blocks.into_iter().map(|(_, mesh)| mesh).collect()).unwrap();
     let state = solve(&problem).0.remove(0);
@@ -322,16 +322,17 @@ fn b26_t_junction_of_one_side_against_two_blocks() {
             ];
             let one = [("joint", r#""a.top""#, r#"["b.bottom", "c.bottom"]"#)];
             let two = [("joint", r#""a.top""#, r#""b.bottom""#), ("other", r#""a.top""#, r#""c.bottom""#)];
-            let joints: &[_] = if split { &two } else { &one };
+            let interfaces: &[_] = if split { &two } else { &one };
             let supports = r#""a.bottom": ["y"], "a.left": ["x"], "b.left": ["x"], "c.right": ["x"]"#;
-            let text = pressed(&blocks, joints, supports, &["b.top", "c.top"]);
+            let text = pressed(&blocks, interfaces, supports, &["b.top", "c.top"]);
             let problem = bind(&text, blocks.into_iter().map(|(_, mesh)| mesh).collect()).unwrap();
             let state = solve(&problem).0.remove(0);
             assert!(error(&state) < 1e-11, "{shape:?} {split}: {:e}", error(&state));
-            let length: f64 = (0..joints.len()).map(|joint| sum_of_segments(&problem, joint)).sum();
+            let length: f64 =
+                (0..interfaces.len()).map(|interface| sum_of_segments(&problem, interface)).sum();
             assert!((length - 1.0).abs() < 1e-14, "{length}");
             if !split {
-                let c = &problem.model.joints[0].coupling.midplane;
+                let c = &problem.model.interfaces[0].coupling.midplane;
                 assert!(c.joined.iter().all(|share| (share - 1.0).abs() < 1e-14));
                 assert_eq!((c.pieces.len(), c.pieces[1].follows), (2, true));
             }

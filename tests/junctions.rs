@@ -4,7 +4,7 @@
 //! ```text
 //!   ┌──── nw ────┬──── ne ────┐     x- and T-junctions; every block has its own copy of the common point
 //!   │            │            │
-//!   ├────────────X────────────┤     σ constant; a joint of normal n carries t = σ n and opens by
+//!   ├────────────X────────────┤     σ constant; an interface of normal n carries t = σ n and opens by
 //!   │            │            │     (σ_nn/K_N) n + (σ_nt/K_T) t, so block by block
 //!   └──── sw ────┴──── se ────┘     u = ε x + i d_v + j d_h   (column i, row j)
 //! ```
@@ -21,7 +21,7 @@ const NU: f64 = 0.3;
 const KN: f64 = 3e5;
 const KT: f64 = 7e4;
 
-/// A uniform state of plane stress and what the joints add to it.
+/// A uniform state of plane stress and what the interfaces add to it.
 struct Uniform {
     stress: [f64; 3],
 }
@@ -33,10 +33,10 @@ impl Uniform {
         [(xx - NU * yy) / E, (yy - NU * xx) / E, 2.0 * (1.0 + NU) * xy / E]
     }
 
-    /// Displacement of a block right of `column` vertical and above `row` horizontal joints, as formulas.
+    /// Displacement of a block right of `column` vertical and above `row` horizontal interfaces, as formulas.
     fn formulas(&self, column: f64, row: f64) -> [String; 2] {
         let ([xx, yy, xy], [ex, ey, g]) = (self.stress, self.strain());
-        let across = [xx / KN, xy / KT]; // over a vertical joint: opening in x, sliding in y
+        let across = [xx / KN, xy / KT]; // over a vertical interface: opening in x, sliding in y
         let up = [xy / KT, yy / KN];
         let shift = [0, 1].map(|d| column * across[d] + row * up[d]);
         [
@@ -54,11 +54,11 @@ impl Uniform {
     }
 }
 
-/// A block: its name, its place in columns and rows of joints, the sides of it that are held, its mesh.
+/// A block: its name, its place in columns and rows of interfaces, the sides of it that are held, its mesh.
 struct Block {
     name: &'static str,
     at: [f64; 2],
-    held: Vec<&'static str>,
+    constrained: Vec<&'static str>,
     mesh: Mesh,
 }
 
@@ -69,11 +69,11 @@ fn flat(x: f64, y: f64) -> [f64; 2] {
 fn block(
     name: &'static str,
     at: [f64; 2],
-    held: &[&'static str],
+    constrained: &[&'static str],
     [xs, ys]: [Vec<f64>; 2],
     shape: Shape,
 ) -> Block {
-    Block { name, at, held: held.to_vec(), mesh: rectangle(&xs, &ys, shape, flat) }
+    Block { name, at, constrained: constrained.to_vec(), mesh: rectangle(&xs, &ys, shape, flat) }
 }
 
 /// The scene of blocks whose outer sides move as the uniform state says, joined by `interfaces`.
@@ -85,7 +85,7 @@ fn scene(blocks: &[Block], state: &Uniform, interfaces: &str) -> String {
     let mut displace = Vec::new();
     for block in blocks {
         let [x, y] = state.formulas(block.at[0], block.at[1]);
-        for side in &block.held {
+        for side in &block.constrained {
             displace.push(format!(r#""{}.{side}": {{ "x": "{x}", "y": "{y}" }}"#, block.name));
         }
     }
@@ -108,35 +108,36 @@ fn passes(blocks: Vec<Block>, state: &Uniform, interfaces: &str, case: &str) -> 
     let problem = bind(&text, blocks.into_iter().map(|block| block.mesh).collect()).unwrap();
     let (states, _) = solve(&problem);
     let size = state.stress.iter().fold(0.0_f64, |size, s| size.max(s.abs()));
-    for (b, body) in problem.model.bodies.iter().enumerate() {
-        for (node, &x) in body.mesh.points.iter().enumerate() {
+    for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
+        for (node, &x) in subdomain.mesh.points.iter().enumerate() {
             let exact = state.u(at[b][0], at[b][1], x);
             let u = displacement(&problem, &states[0], b, node);
-            (0..2)
-                .for_each(|d| close(u[d], exact[d], 1e-10, size / E, &format!("{case}: u of {}", body.name)));
+            (0..2).for_each(|d| {
+                close(u[d], exact[d], 1e-10, size / E, &format!("{case}: u of {}", subdomain.name))
+            });
         }
         for &[xx, yy, _, xy] in &states[0].snapshot.stresses[b].cells {
             for (got, exact) in [xx, yy, xy].into_iter().zip(state.stress) {
-                close(got, exact, 1e-9, size, &format!("{case}: stress of {}", body.name));
+                close(got, exact, 1e-9, size, &format!("{case}: stress of {}", subdomain.name));
             }
         }
     }
     let [xx, yy, xy] = state.stress;
-    for (j, joint) in problem.model.joints.iter().enumerate() {
-        for (point, t) in joint.coupling.points.iter().zip(&states[0].snapshot.tractions[j]) {
+    for (j, interface) in problem.model.interfaces.iter().enumerate() {
+        for (point, t) in interface.coupling.points.iter().zip(&states[0].snapshot.tractions[j]) {
             let [[nx, ny], [tx, ty]] = point.rotation;
             let exact = [
                 nx * nx * xx + ny * ny * yy + 2.0 * nx * ny * xy,
                 nx * tx * xx + ny * ty * yy + (nx * ty + ny * tx) * xy,
             ];
-            (0..2).for_each(|c| close(t[c], exact[c], 1e-9, size, &format!("{case}: {}", joint.name)));
+            (0..2).for_each(|c| close(t[c], exact[c], 1e-9, size, &format!("{case}: {}", interface.name)));
         }
     }
     problem
 }
 
 fn names(problem: &Problem) -> Vec<&str> {
-    problem.model.joints.iter().map(|joint| joint.name.as_str()).collect()
+    problem.model.interfaces.iter().map(|interface| interface.name.as_str()).collect()
 }
 
 /// Four blocks at the point (1, 1) of a square 2 × 2, with the given numbers of edges in x and y.
@@ -147,8 +148,8 @@ fn four(edges: [[usize; 2]; 4], shape: Shape) -> Vec<Block> {
         ("nw", [0.0, 1.0], ["left", "top"]),
         ("ne", [1.0, 1.0], ["right", "top"]),
     ];
-    let make = |((name, at, held), [nx, ny]): ((_, [f64; 2], [_; 2]), [usize; 2])| {
-        block(name, at, &held, [even(at[0], at[0] + 1.0, nx), even(at[1], at[1] + 1.0, ny)], shape)
+    let make = |((name, at, constrained), [nx, ny]): ((_, [f64; 2], [_; 2]), [usize; 2])| {
+        block(name, at, &constrained, [even(at[0], at[0] + 1.0, nx), even(at[1], at[1] + 1.0, ny)], shape)
     };
     places.into_iter().zip(edges).map(make).collect()
 }
@@ -165,9 +166,9 @@ fn b27_a_constant_stress_passes_an_x_junction() {
             let all = format!(r#""joints": {{ "between": ["*", "*"], {LAW} }}"#);
             let problem = passes(four(edges, shape), &state, &all, &case);
             assert_eq!(names(&problem), ["joints~sw~se", "joints~sw~nw", "joints~se~ne", "joints~nw~ne"]);
-            for joint in &problem.model.joints {
-                close(joint.coupling.midplane.length, 1.0, 1e-14, 1.0, &case);
-                let shares = joint.coupling.shares();
+            for interface in &problem.model.interfaces {
+                close(interface.coupling.midplane.length, 1.0, 1e-14, 1.0, &case);
+                let shares = interface.coupling.shares();
                 let sum: f64 = shares.iter().map(|share| share.s[1] - share.s[0]).sum();
                 close(sum, 1.0, 1e-14, 1.0, &case);
             }
@@ -188,9 +189,11 @@ fn b27_pairs_that_share_a_node_have_no_null_modes() {
     for edges in [MATCHED, UNMATCHED] {
         let problem = passes(four(edges, Shape::Quadrilateral4), &state, &by_hand, &format!("{edges:?}"));
         let corner = |name: &str| {
-            let body = problem.model.bodies.iter().position(|body| body.name == name).unwrap();
-            let points = &problem.model.bodies[body].mesh.points;
-            problem.model.bodies[body].first_node + points.iter().position(|p| *p == [1.0, 1.0]).unwrap()
+            let subdomain =
+                problem.model.subdomains.iter().position(|subdomain| subdomain.name == name).unwrap();
+            let points = &problem.model.subdomains[subdomain].mesh.points;
+            problem.model.subdomains[subdomain].first_node
+                + points.iter().position(|p| *p == [1.0, 1.0]).unwrap()
         };
         let mut copies = ["sw", "se", "nw", "ne"].map(corner);
         copies.sort_unstable();
@@ -200,12 +203,12 @@ fn b27_pairs_that_share_a_node_have_no_null_modes() {
 
 #[test]
 fn b26_a_constant_stress_passes_a_t_junction() {
-    // every part is held all around but at the long joint, so that nothing acts between b and c
+    // every part is held all around but at the long interface, so that nothing acts between b and c
     let state = Uniform { stress: [-2.0, -8.0, 1.5] };
     for (n, nb, nc) in [(6, 4, 2), (7, 3, 5), (1, 4, 4), (12, 1, 1), (1000, 7, 3)] {
         for meet in [1.75, 2.0, 0.5 + 1e-9] {
-            let side = |name, held: [&'static str; 3], x, y| {
-                block(name, [0.0, f64::from(name != "a")], &held, [x, y], Shape::Quadrilateral4)
+            let side = |name, constrained: [&'static str; 3], x, y| {
+                block(name, [0.0, f64::from(name != "a")], &constrained, [x, y], Shape::Quadrilateral4)
             };
             let blocks = vec![
                 side("a", ["left", "bottom", "right"], even(0.0, 3.0, n), even(-1.0, 0.0, 3)),
@@ -216,18 +219,18 @@ fn b26_a_constant_stress_passes_a_t_junction() {
             let all = format!(r#""joints": {{ "between": ["a", "?"], {LAW} }}"#);
             let problem = passes(blocks, &state, &all, &case);
             assert_eq!(names(&problem), ["joints~a~b", "joints~a~c"]);
-            let lengths = problem.model.joints.iter().map(|joint| joint.coupling.midplane.length);
+            let lengths = problem.model.interfaces.iter().map(|interface| interface.coupling.midplane.length);
             close(lengths.sum(), 3.0, 1e-14, 3.0, &case);
         }
     }
 }
 
 #[test]
-fn b26_uniform_compression_passes_three_joints_at_a_t_junction() {
+fn b26_uniform_compression_passes_three_interfaces_at_a_t_junction() {
     let state = Uniform { stress: [0.0, -8.0, 0.0] };
     for (n, nb, nc) in [(6, 4, 2), (7, 3, 5), (1, 4, 4)] {
-        let outer = |name, held: [&'static str; 2], x, y| {
-            block(name, [0.0, f64::from(name != "a")], &held, [x, y], Shape::Quadrilateral4)
+        let outer = |name, constrained: [&'static str; 2], x, y| {
+            block(name, [0.0, f64::from(name != "a")], &constrained, [x, y], Shape::Quadrilateral4)
         };
         let blocks = vec![
             outer("a", ["bottom", "left"], even(0.0, 3.0, n), even(-1.0, 0.0, 3)),
@@ -318,10 +321,10 @@ fn patterns_choose_pairs_and_sides() {
     let state = Uniform { stress: [0.0, -1.0, 0.0] };
     let bound = |patterns: &str| {
         let mut blocks = four(UNMATCHED, Shape::Quadrilateral4);
-        blocks.iter_mut().for_each(|block| block.held.clear());
-        let held = ["sw", "se", "nw", "ne"].map(|name| format!(r#""{name}": ["x", "y"]"#)).join(", ");
+        blocks.iter_mut().for_each(|block| block.constrained.clear());
+        let constrained = ["sw", "se", "nw", "ne"].map(|name| format!(r#""{name}": ["x", "y"]"#)).join(", ");
         let text = scene(&blocks, &state, &format!(r#""j": {{ "between": {patterns}, {LAW} }}"#))
-            .replace(r#""displace": {  }"#, &format!(r#""fix": {{ {held} }}"#));
+            .replace(r#""displace": {  }"#, &format!(r#""fix": {{ {constrained} }}"#));
         bind(&text, blocks.into_iter().map(|block| block.mesh).collect())
     };
     for (patterns, expected) in [
@@ -372,10 +375,10 @@ fn a_pair_that_touches_twice_has_two_interfaces() {
     );
     let problem = bind(&text, vec![a.clone(), b.clone()]).unwrap();
     assert_eq!(names(&problem), ["j~a~b~1", "j~a~b~2"]);
-    for (joint, start) in problem.model.joints.iter().zip([0.0, 2.0]) {
-        close(joint.coupling.midplane.length, 1.0, 1e-14, 1.0, &joint.name);
-        let xs = joint.coupling.points.iter().map(|p| p.position[0]);
-        assert!(xs.into_iter().all(|x| x > start && x < start + 1.0), "{}", joint.name);
+    for (interface, start) in problem.model.interfaces.iter().zip([0.0, 2.0]) {
+        close(interface.coupling.midplane.length, 1.0, 1e-14, 1.0, &interface.name);
+        let xs = interface.coupling.points.iter().map(|p| p.position[0]);
+        assert!(xs.into_iter().all(|x| x > start && x < start + 1.0), "{}", interface.name);
     }
     // probes name one of them; the entry alone or a pair that does not touch is refused
     for (probe, expected) in [
@@ -411,7 +414,7 @@ fn curved_boundaries_touch_and_slots_do_not() {
         let Group::Edges(right) = &inner.groups["right"] else { panic!("no curve") };
         assert!(found[0].edges[0].iter().all(|edge| right.iter().any(|r| r.nodes == edge.nodes)));
     }
-    // a slot as wide as a hundredth of an edge is no joint, nor is a point
+    // a slot as wide as a hundredth of an edge is no interface, nor is a point
     let square =
         |x: f64, y: f64| rectangle(&even(x, x + 1.0, 4), &even(y, y + 1.0, 4), Shape::Triangle3, flat);
     for (x, y) in [(1.0025, 0.0), (1.0, 1.0), (-1.0, 1.0), (3.0, 0.0)] {

@@ -27,22 +27,22 @@ fn stress(start: f64, end: f64) -> ComponentControl {
     ComponentControl { control: Controlled::Stress, start, end }
 }
 
-fn along(law: &Cracking, program: Vec<PathSegment>, stepping: Integration) -> Vec<PathRow> {
+fn along(law: &Cracking, program: Vec<PathSegment>, integration: Integration) -> Vec<PathRow> {
     law.check().unwrap();
-    drive(&Law::Cracking(*law), &LawPath { program, initial: None }, &State::default(), stepping).unwrap()
+    drive(&Law::Cracking(*law), &LawPath { program, initial: None }, &State::default(), integration).unwrap()
 }
 
-fn tension(law: &Cracking, opening: f64, points: usize, stepping: Integration) -> Vec<PathRow> {
-    along(law, vec![PathSegment { n: jump(0.0, opening), t: jump(0.0, 0.0), points }], stepping)
+fn tension(law: &Cracking, opening: f64, points: usize, integration: Integration) -> Vec<PathRow> {
+    along(law, vec![PathSegment { n: jump(0.0, opening), t: jump(0.0, 0.0), points }], integration)
 }
 
 /// Compression σ first, then slip at that σ.
-fn shear(law: &Cracking, sigma: f64, slip: f64, points: usize, stepping: Integration) -> Vec<PathRow> {
+fn shear(law: &Cracking, sigma: f64, slip: f64, points: usize, integration: Integration) -> Vec<PathRow> {
     let program = vec![
         PathSegment { n: stress(0.0, sigma), t: jump(0.0, 0.0), points: 1 },
         PathSegment { n: stress(sigma, sigma), t: jump(0.0, slip), points },
     ];
-    along(law, program, stepping)
+    along(law, program, integration)
 }
 
 /// ∫ f from a to b by Gauss–Legendre (5 points) in equal parts.
@@ -186,20 +186,20 @@ fn the_areas_under_the_curves_are_the_fracture_energies() {
 }
 
 #[test]
-fn with_sigma_held_at_zero_the_shear_stress_is_gone_after_a_finite_slip() {
+fn with_sigma_constrained_at_zero_the_shear_stress_is_gone_after_a_finite_slip() {
     // o07: opening and sliding in proportion; σ reaches 0 at W_z, then τ(W) = √(χt(2c−χt)) until W = G_I
     let reference = Reference::read("o07_mixed_prop_dil0");
     let Law::Cracking(law) = reference.law else { unreachable!() };
     let mut path = reference.path.clone();
     path.program[0].points = 3000;
     let rows = drive(&reference.law, &path, &State::default(), Integration::Tolerance(1e-10)).unwrap();
-    let held: Vec<&State> = rows.iter().map(|row| &row.state).filter(|s| s.status == 3).collect();
+    let constrained: Vec<&State> = rows.iter().map(|row| &row.state).filter(|s| s.status == 3).collect();
     let tau = |w: f64| {
         let now = law.strength(w);
         let reach = now.tensile_strength * now.tan_friction;
         (reach * (2.0 * now.cohesion - reach)).sqrt()
     };
-    let (first, last) = (held[0], held[held.len() - 10]);
+    let (first, last) = (constrained[0], constrained[constrained.len() - 10]);
     for state in [first, last] {
         assert_eq!(state.traction.x, 0.0);
         close(state.traction.y, tau(state.fracture_work), 1e-12, "τ(W)");
@@ -301,11 +301,11 @@ fn at_45_degrees_sigma_falls_to_zero_and_stays() {
         tan_friction_residual: Some(0.6),
         ..EXAMPLE_2
     };
-    for stepping in
+    for integration in
         [Integration::BackwardEuler(1), Integration::BackwardEuler(7), Integration::Tolerance(1e-4)]
     {
         let program = vec![PathSegment { n: jump(0.0, 2e-4), t: jump(0.0, 2e-4), points: 400 }];
-        let rows = along(&law, program, stepping);
+        let rows = along(&law, program, integration);
         let reached = rows.iter().position(|row| row.state.status == 3).unwrap();
         let statuses: Vec<u8> = rows[reached..].iter().map(|row| row.state.status).collect();
         assert!(statuses.is_sorted(), "the mode cycles: {statuses:?}");

@@ -17,10 +17,10 @@ fn rows(output: &Output) -> Vec<Vec<String>> {
 /// integration.
 #[test]
 fn example_2_is_driven_from_the_scene_of_the_gallery() {
-    for (stepping, tolerance) in
+    for (integration, tolerance) in
         [(&["--tolerance", "1e-6"][..], 1e-5), (&["--substeps", "10"], 1e-2), (&[], 1e-3)]
     {
-        let arguments = [&["geo/shear/scene.json", "joint", "geo/shear/path.json"], stepping].concat();
+        let arguments = [&["geo/shear/scene.json", "joint", "geo/shear/path.json"], integration].concat();
         let rows = rows(&law(&arguments));
         let header = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,jump_n_plastic,jump_t_plastic,\
                       tensile_strength,cohesion,tan_friction,status";
@@ -30,7 +30,7 @@ fn example_2_is_driven_from_the_scene_of_the_gallery() {
         let number = |i: usize| last[i].parse::<f64>().unwrap();
         assert_eq!((number(0), number(2), number(11)), (2.0, 1e-3, 2.0));
         assert!((number(3) + 5.0).abs() < 1e-9);
-        assert!((number(4) - 5.06373649).abs() < tolerance, "{stepping:?}: {}", last[4]);
+        assert!((number(4) - 5.06373649).abs() < tolerance, "{integration:?}: {}", last[4]);
         let highest = rows[1..].iter().map(|row| row[4].parse::<f64>().unwrap()).fold(0.0, f64::max);
         let peak = ((4.0 + 5.0 * 0.8785_f64).powi(2) - (4.0 - 3.0 * 0.8785_f64).powi(2)).sqrt();
         assert!(highest <= peak + 1e-9 && highest > 0.99 * peak, "{highest}, peak {peak}");

@@ -233,7 +233,7 @@ fn without_friction_there_is_no_shear_stress_and_with_much_there_is_no_slip() {
 }
 
 #[test]
-fn an_open_joint_carries_nothing_and_closes_where_it_is() {
+fn an_open_interface_carries_nothing_and_closes_where_it_is() {
     let law = Coulomb { cohesion: 0.3, ..BLOCK };
     let state = Law::Coulomb(law).initial_state(Vector2::zeros(), 1e-4).unwrap();
     let open = respond(&law, [-0.9e-4, 2e-4], &state);
@@ -244,7 +244,7 @@ fn an_open_joint_carries_nothing_and_closes_where_it_is() {
 }
 
 #[test]
-fn dilatancy_presses_a_confined_joint() {
+fn dilatancy_presses_a_confined_interface() {
     let law = Coulomb { dilatancy: 0.2, cohesion: 0.5, ..BLOCK };
     let response = respond(&law, [-2e-4, 1e-3], &State::default());
     let slip = (10.0 + 0.6 * -2.0 - 0.5) / (1e4 + 0.6 * 1e4 * 0.2);

@@ -11,20 +11,20 @@ use midplane::law::{Cracking, Inadmissible, Integration, Law, State};
 use nalgebra::{Matrix2, Vector2};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {
-    let Inadmissible { key: blamed, what, cure } = law.check().unwrap_err();
-    assert_eq!(blamed, key, "{what}; {cure}");
-    let message = format!("{what}; {cure}");
+    let Inadmissible { key: blamed, what, help } = law.check().unwrap_err();
+    assert_eq!(blamed, key, "{what}; {help}");
+    let message = format!("{what}; {help}");
     for part in parts {
         assert!(message.contains(part), "\"{part}\" is not in: {message}");
     }
 }
 
-fn walk(law: &Cracking, ways: &[[f64; 2]], stepping: Integration) -> Vec<State> {
+fn walk(law: &Cracking, ways: &[[f64; 2]], integration: Integration) -> Vec<State> {
     law.check().unwrap();
     let mut state = State::default();
     ways.iter()
         .map(|&[n, t]| {
-            let response = Law::Cracking(*law).respond(Vector2::new(n, t), &state, stepping).unwrap();
+            let response = Law::Cracking(*law).respond(Vector2::new(n, t), &state, integration).unwrap();
             assert!(response.stiffness.iter().all(|x| x.is_finite()), "{response:?}");
             assert!(response.state.fracture_work >= state.fracture_work);
             assert!(response.dissipation >= 0.0);
@@ -41,8 +41,8 @@ fn b13_friction_from_none_to_ten() {
     refused(&Cracking { tan_friction: 0.0, ..EXAMPLE_2 }, "tan_friction", &["0"]);
     for friction in [1e-12, 1.0, 10.0] {
         let law = Cracking { tan_friction: friction, cohesion: 3.0 * friction.max(1.0), ..EXAMPLE_2 };
-        for stepping in STEPPINGS {
-            for state in walk(&law, &[[-1e-6, 0.0], [-1e-6, 5e-5], [1e-5, 5e-5], [5e-5, 2e-4]], stepping) {
+        for integration in STEPPINGS {
+            for state in walk(&law, &[[-1e-6, 0.0], [-1e-6, 5e-5], [1e-5, 5e-5], [5e-5, 2e-4]], integration) {
                 assert!(state.traction.iter().all(|x| x.is_finite()));
             }
         }
@@ -60,15 +60,15 @@ fn b13_friction_from_none_to_ten() {
 #[test]
 fn b14_without_tensile_strength_tension_is_free_of_stress_from_the_start() {
     let law = Cracking { tensile_strength: 0.0, fracture_energy_i: 0.0, ..EXAMPLE_2 };
-    for stepping in STEPPINGS {
-        for state in walk(&law, &[[1e-5, 0.0], [2e-5, 1e-5], [3e-5, 1e-4]], stepping) {
+    for integration in STEPPINGS {
+        for state in walk(&law, &[[1e-5, 0.0], [2e-5, 1e-5], [3e-5, 1e-4]], integration) {
             assert!(state.traction.amax() <= 1e-12 * law.cohesion, "{state:?}");
             assert_eq!(state.status, 4);
         }
         // the vertex is at the origin: in compression τ² = σt (σt − 2c) is still there
         let sigma = -2.0;
         let peak = (sigma * law.tan_friction * (sigma * law.tan_friction - 2.0 * law.cohesion)).sqrt();
-        let sheared = walk(&law, &[[-2e-7, 0.0], [-2e-7, peak / 1e7]], stepping)[1];
+        let sheared = walk(&law, &[[-2e-7, 0.0], [-2e-7, peak / 1e7]], integration)[1];
         close(sheared.traction.y, peak, 1e-12 * peak, "peak");
     }
 }
@@ -82,9 +82,9 @@ fn b15_without_any_strength_the_law_is_coulomb_friction() {
         fracture_energy_iia: 0.0,
         ..EXAMPLE_2
     };
-    for stepping in STEPPINGS {
+    for integration in STEPPINGS {
         let states =
-            walk(&law, &[[0.0, 1e-6], [1e-6, 1e-6], [0.0, 0.0], [-1e-6, 0.0], [-1e-6, 1e-4]], stepping);
+            walk(&law, &[[0.0, 1e-6], [1e-6, 1e-6], [0.0, 0.0], [-1e-6, 0.0], [-1e-6, 1e-4]], integration);
         assert_eq!(states[1].traction, Vector2::zeros());
         let limit = 0.8785 * -states[4].traction.x;
         close(states[4].traction.y, limit, 1e-12, "τ = μ |σ|");
@@ -98,8 +98,8 @@ fn b16_a_vertex_beyond_the_asymptotes_is_refused() {
     refused(&law, "cohesion", &["2", "3", "0.8785", "2.6355"]);
     // on the edge the hyperbola is a cone with its corner at the vertex: answered
     let cone = Cracking { cohesion: 3.0 * 0.8785, ..EXAMPLE_2 };
-    for stepping in STEPPINGS {
-        let states = walk(&cone, &[[1e-6, 1e-7], [1e-5, 1e-6], [5e-5, 5e-6]], stepping);
+    for integration in STEPPINGS {
+        let states = walk(&cone, &[[1e-6, 1e-7], [1e-5, 1e-6], [5e-5, 5e-6]], integration);
         assert!(states.iter().all(|state| state.traction.iter().all(|x| x.is_finite())));
     }
 }
@@ -132,11 +132,11 @@ fn b17_an_energy_too_small_for_the_stiffness_is_refused_with_the_least_stiffness
 #[test]
 fn b18_huge_energies_are_perfect_plasticity() {
     let law = Cracking { fracture_energy_i: 1e6, fracture_energy_iia: 1e6, ..EXAMPLE_2 };
-    for stepping in STEPPINGS {
-        let states = walk(&law, &[[1e-4, 0.0], [1e-3, 0.0]], stepping);
+    for integration in STEPPINGS {
+        let states = walk(&law, &[[1e-4, 0.0], [1e-3, 0.0]], integration);
         close(states[1].traction.x, 3.0, 1e-6, "plateau in tension");
         let peak = ((4.0_f64 + 10.0 * 0.8785).powi(2) - (4.0_f64 - 3.0 * 0.8785).powi(2)).sqrt();
-        let states = walk(&law, &[[-1e-6, 0.0], [-1e-6, 1e-4], [-1e-6, 1e-2]], stepping);
+        let states = walk(&law, &[[-1e-6, 0.0], [-1e-6, 1e-4], [-1e-6, 1e-2]], integration);
         close(states[2].traction.y, peak, 1e-6, "plateau in shear");
     }
 }
@@ -166,11 +166,11 @@ fn b19_cohesion_may_go_first_only_as_long_as_the_vertex_stays_inside() {
 #[test]
 fn b20_without_dilatancy_sigma_sticks_to_zero() {
     // W ≥ G_I and opening with slip: nothing is divided by σ_dil = 0, σ is 0 and not −0.0…1
-    for stepping in
+    for integration in
         [Integration::Tolerance(1e-6), Integration::BackwardEuler(1), Integration::BackwardEuler(50)]
     {
         let ways: Vec<[f64; 2]> = (1..=100).map(|k| [2e-6 * k as f64, 2e-6 * k as f64]).collect();
-        let states = walk(&EXAMPLE_2, &ways, stepping);
+        let states = walk(&EXAMPLE_2, &ways, integration);
         let first = states.iter().position(|state| state.traction.x == 0.0).unwrap();
         assert!(states[first..].iter().all(|state| state.traction.x == 0.0 && state.status >= 3));
     }
@@ -180,20 +180,21 @@ fn b20_without_dilatancy_sigma_sticks_to_zero() {
 fn b21_unloading_is_elastic_reversal_yields_on_the_other_side_and_closing_carries_at_once() {
     let law = EXAMPLE_2;
     let elastic = Matrix2::new(1e7, 0.0, 0.0, 1e7);
-    for stepping in STEPPINGS {
+    for integration in STEPPINGS {
         // shear at σ = −5, back, and beyond
-        let mut state = walk(&law, &[[-5e-7, 0.0], [-5e-7, 1e-4]], stepping)[1];
+        let mut state = walk(&law, &[[-5e-7, 0.0], [-5e-7, 1e-4]], integration)[1];
         let (tau, work) = (state.traction.y, state.fracture_work);
-        let back = Law::Cracking(law).respond(Vector2::new(-5e-7, 1e-4 - 5e-7), &state, stepping).unwrap();
+        let back = Law::Cracking(law).respond(Vector2::new(-5e-7, 1e-4 - 5e-7), &state, integration).unwrap();
         assert_eq!((back.stiffness, back.dissipation, back.state.fracture_work), (elastic, 0.0, work));
         close(back.traction.y, tau - 5.0, 1e-9, "unloading");
-        state = Law::Cracking(law).respond(Vector2::new(-5e-7, 9e-5), &back.state, stepping).unwrap().state;
+        state =
+            Law::Cracking(law).respond(Vector2::new(-5e-7, 9e-5), &back.state, integration).unwrap().state;
         assert!(state.traction.y < 0.0 && state.fracture_work > work && state.status == 2);
 
         // open, close: compression from the irreversible opening on
-        let open = walk(&law, &[[8e-5, 0.0]], stepping)[0];
+        let open = walk(&law, &[[8e-5, 0.0]], integration)[0];
         let closed = Vector2::new(open.jump_plastic.x - 1e-6, 0.0);
-        let response = Law::Cracking(law).respond(closed, &open, stepping).unwrap();
+        let response = Law::Cracking(law).respond(closed, &open, integration).unwrap();
         close(response.traction.x, -10.0, 1e-9, "closing");
         assert_eq!((response.stiffness, response.state.fracture_work), (elastic, open.fracture_work));
     }

@@ -69,11 +69,11 @@ fn a_million_random_steps_keep_every_promise() {
                 size = random.power(0.0, 6.0) / law.normal_stiffness; // trials up to 1e6 MPa
             }
             let jump = state.jump + (drift + random.direction()) * size;
-            let stepping = match random.coin() {
+            let integration = match random.coin() {
                 true => Integration::BackwardEuler(1),
                 false => Integration::Tolerance(1e-3),
             };
-            let response = match Law::Cracking(law).respond(jump, &state, stepping) {
+            let response = match Law::Cracking(law).respond(jump, &state, integration) {
                 Ok(response) => response,
                 Err(unresolved) => {
                     assert!(may_leap(&law, &state, jump), "{unresolved}: {law:?} {state:?} {jump:?}");

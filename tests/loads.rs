@@ -6,7 +6,7 @@ use common::*;
 use midplane::error::Code;
 use midplane::shape::Shape;
 
-/// A joint between two unit squares, one above the other, with the given first lines and steps.
+/// An interface between two unit squares, one above the other, with the given first lines and steps.
 fn two_squares(
     head: &str,
     law: &str,
@@ -35,7 +35,7 @@ fn last(problem: &midplane::problem::Problem) -> Vec<f64> {
     states[states.len() - 1].probes(problem)
 }
 
-/// Column of height H under its own weight γ: the linear element is exact at nodes in one dimension, and the joint sees
+/// Column of height H under its own weight γ: the linear element is exact at nodes in one dimension, and the interface sees
 /// the weight above it: u(H) = −γ (H²/2)/E − γ h₂/K_N. Q4 follows it exactly, T3 to its discretisation in the mean.
 #[test]
 fn a_column_stands_under_its_own_weight() {
@@ -55,7 +55,7 @@ fn a_column_stands_under_its_own_weight() {
     }
 }
 
-/// Shear by a displacement: joint and bodies are springs in series. With ν = 0 and both bodies held against rotation by
+/// Shear by a displacement: interface and bodies are springs in series. With ν = 0 and both bodies held against rotation by
 /// u_y = 0 everywhere, τ = u / (2/G + 1/K_T).
 #[test]
 fn a_prescribed_shear_meets_springs_in_series() {
@@ -99,7 +99,7 @@ fn loads_ramp_from_their_last_value() {
     }
 }
 
-/// An initial traction t₀ on a free joint opens it by −t₀/K until nothing is left (paper eq. 10).
+/// An initial traction t₀ on a free interface opens it by −t₀/K until nothing is left (paper eq. 10).
 #[test]
 fn an_initial_traction_relaxes_to_nothing_where_nothing_resists() {
     let law = format!(r#"{SPRINGS}, "initial_traction": [-2.0, 0.5]"#);
@@ -125,7 +125,7 @@ fn zero_load_gives_zeros() {
 
 /// What can move freely is named with its motion, and not solved.
 #[test]
-fn a_free_body_is_reported_by_name_and_mode() {
+fn a_free_subdomain_is_reported_by_name_and_mode() {
     let springs = |kn: f64, kt: f64| {
         format!(r#""law": {{ "type": "elastic", "normal_stiffness": {kn}, "tangential_stiffness": {kt} }}"#)
     };
@@ -161,7 +161,7 @@ fn a_free_body_is_reported_by_name_and_mode() {
 
 /// A body that only springs hold is known to ε E/(K h): told below K h/E = 1e-6, free below 1e-12 (h = 1/3, E = 1e4).
 #[test]
-fn a_body_on_springs_of_nothing_is_hardly_held_or_free() {
+fn a_subdomain_on_springs_of_nothing_is_hardly_constrained_or_free() {
     let on = |k: f64| {
         let law = format!(
             r#""law": {{ "type": "elastic", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e} }}"#

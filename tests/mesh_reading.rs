@@ -107,7 +107,7 @@ fn quadratic_cells_keep_their_mid_nodes_when_turned() {
 }
 
 #[test]
-fn a_curve_inside_the_body_has_a_cell_on_either_side() {
+fn a_curve_inside_the_subdomain_has_a_cell_on_either_side() {
     let mut text = strip();
     text.entities.insert(2, (1, 2, vec![8]));
     text.blocks.insert(2, block(1, 2, 1, &[(7, &[2, 5])]));
@@ -158,7 +158,7 @@ fn what_gmsh_would_not_have_saved_is_left_out_with_its_points() {
 /// The fault of a group of a mesh that is read all the same.
 fn fault(text: &MeshText, name: &str) -> String {
     match &read(text).groups[name] {
-        Group::Unusable { what, cure, .. } => format!("{what}; {cure}"),
+        Group::Unusable { what, help, .. } => format!("{what}; {help}"),
         other => panic!("{name} is usable: {other:?}"),
     }
 }

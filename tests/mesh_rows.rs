@@ -99,7 +99,7 @@ fn b30_groups_that_contradict_each_other_are_refused_naming_both() {
 }
 
 #[test]
-fn b28_sides_of_one_body_that_do_not_face_each_other_are_refused_by_name() {
+fn b28_sides_of_one_subdomain_that_do_not_face_each_other_are_refused_by_name() {
     let message = refusal(SQUARE, &SCENE.replace("\"lower.top\"", "\"upper.top\""));
     assert!(
         message.contains("interface joint: upper.top and upper.bottom do not lie on each other"),

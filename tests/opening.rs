@@ -1,4 +1,4 @@
-//! Claim: a joint that opens and slides at once passes through the mode where σ stays at zero on a mesh as it does at a point,
+//! Claim: an interface that opens and slides at once passes through the mode where σ stays at zero on a mesh as it does at a point,
 //! in any increments and without cycling.
 //!
 //! The bodies are so stiff that every law point has the prescribed jump to 1e-6.
@@ -33,20 +33,21 @@ fn scene(young: f64, fraction: f64, increments: usize, strategy: &str) -> String
     )
 }
 
-fn bodies() -> Vec<midplane::mesh::Mesh> {
-    let body = |edges: usize, y: f64| {
+fn subdomains() -> Vec<midplane::mesh::Mesh> {
+    let subdomain = |edges: usize, y: f64| {
         rectangle(&even(0.0, 0.1, edges), &even(y, y + 0.05, 2), Shape::Quadrilateral4, |x, y| [x, y])
     };
-    vec![body(5, -0.05), body(7, 0.0)]
+    vec![subdomain(5, -0.05), subdomain(7, 0.0)]
 }
 
 #[test]
-fn sigma_stays_at_zero_on_stiff_bodies_as_at_a_point() {
+fn sigma_stays_at_zero_on_stiff_subdomains_as_at_a_point() {
     for strategy in ["condensed", "plain"] {
         for (fraction, sigma, tau) in AT_45_DEGREES {
             for increments in [1, 9, 90] {
                 let what = format!("{strategy}, {increments} increments to {fraction}");
-                let march = try_solve(&bind(&scene(1e12, fraction, increments, strategy), bodies()).unwrap());
+                let march =
+                    try_solve(&bind(&scene(1e12, fraction, increments, strategy), subdomains()).unwrap());
                 let totals = march.end.unwrap();
                 assert!(totals.snaps.is_empty(), "{what}: snaps");
                 // rounding of stiff bodies may cost one increment a second try
@@ -64,12 +65,15 @@ fn sigma_stays_at_zero_on_stiff_bodies_as_at_a_point() {
 }
 
 #[test]
-fn soft_bodies_pass_through_it_in_any_increments() {
+fn soft_subdomains_pass_through_it_in_any_increments() {
     // points reach σ = 0 one after the other, and none is cut
     let end = |increments: usize| {
         let march = try_solve(
-            &bind(&scene(1e4, 1.0, increments, "condensed").replace(", \"path_tolerance\": 1", ""), bodies())
-                .unwrap(),
+            &bind(
+                &scene(1e4, 1.0, increments, "condensed").replace(", \"path_tolerance\": 1", ""),
+                subdomains(),
+            )
+            .unwrap(),
         );
         let totals = march.end.unwrap();
         assert!(totals.snaps.is_empty(), "{increments} increments");

@@ -8,7 +8,7 @@ use midplane::problem::Problem;
 use midplane::shape::Shape;
 use midplane::solver::{Order, Symbolic, nested_dissection};
 
-/// Two layers 2 × 0.5 with a and b edges along their joint.
+/// Two layers 2 × 0.5 with a and b edges along their interface.
 fn layers(a: usize, b: usize, shape: Shape) -> midplane::error::Result<Problem> {
     let flat = |x: f64, y: f64| [x, y];
     let lower = rectangle(&even(0.0, 2.0, a), &even(-0.5, 0.0, a / 4), shape, flat);
@@ -94,7 +94,7 @@ fn the_factor_is_as_sparse_as_that_of_minimum_degree() {
     for (a, b, shape, most, limit) in [
         (310, 322, Shape::Quadrilateral4, 12_500_000, 1.15),
         (280, 290, Shape::Triangle3, usize::MAX, 1.25),
-        // small, with a long joint: analysed both ways
+        // small, with a long interface: analysed both ways
         (140, 144, Shape::Triangle3, usize::MAX, 1.0),
         (100, 60, Shape::Quadrilateral4, usize::MAX, 1.0),
     ] {
@@ -114,9 +114,14 @@ fn both_orders_give_the_same_answer() {
     let problem = layers(60, 75, Shape::Triangle3).unwrap();
     let (pattern, order) = order(&problem);
     let mut matrix: Symmetric = problem.model.continuum(&pattern);
-    let joint = &problem.model.joints[0];
-    add_stiffness(joint, &pattern, &[1e6, 0.0, 0.0, 1e6].repeat(joint.coupling.points.len()), &mut matrix);
-    matrix.hold(&pattern, &problem.stages[0].held);
+    let interface = &problem.model.interfaces[0];
+    add_stiffness(
+        interface,
+        &pattern,
+        &[1e6, 0.0, 0.0, 1e6].repeat(interface.coupling.points.len()),
+        &mut matrix,
+    );
+    matrix.hold(&pattern, &problem.steps[0].constrained);
     let solved = [Symbolic::with_order(&pattern, &order), Symbolic::minimum_degree(&pattern)].map(|plan| {
         let plan = plan.unwrap();
         let mut x: Vec<f64> = (0..pattern.size()).map(|i| ((i * i) % 17) as f64 - 8.0).collect();

@@ -1,7 +1,7 @@
 //! Claim: factored in parts or joined, a model has the same displacements, for any number of threads.
 //!
 //! ```text
-//!   ┌──┬──┬──┐  upper: floats on its joints or is held     pressure, bending
+//!   ┌──┬──┬──┐  upper: floats on its interfaces or is held     pressure, bending
 //!   ├─┬┴─┬┴┬─┤  middle
 //!   ├─┴┬─┴─┴─┤  lower: held                                 every body with a mesh of its own
 //!   └──┴─────┘
@@ -14,15 +14,15 @@ use midplane::problem::Problem;
 use midplane::shape::Shape;
 use midplane::solver::{Cut, FactorPlan, Linear, Parts, Symbolic, System, nested_dissection};
 
-/// Layers 2 × 0.5 on each other, `edges` along each, with a joint between neighbours or with none.
+/// Layers 2 × 0.5 on each other, `edges` along each, with an interface between neighbours or with none.
 fn layers(edges: &[usize], shape: Shape, jointed: bool, fix: &str) -> Problem {
     let meshes = edges.iter().enumerate().map(|(k, &n)| {
         let y = 0.5 * k as f64;
         rectangle(&even(0.0, 2.0, n), &even(y, y + 0.5, n / 4), shape, |x, y| [x, y])
     });
-    let bodies: Vec<String> =
+    let subdomains: Vec<String> =
         (0..edges.len()).map(|k| format!(r#""l{k}": {{ "msh": "{k}", "material": "rock" }}"#)).collect();
-    let joints: Vec<String> = (1..if jointed { edges.len() } else { 1 })
+    let interfaces: Vec<String> = (1..if jointed { edges.len() } else { 1 })
         .map(|k| {
             format!(
                 r#""joint{k}": {{ "side_a": "l{}.top", "side_b": "l{k}.bottom", "law":
@@ -37,8 +37,8 @@ fn layers(edges: &[usize], shape: Shape, jointed: bool, fix: &str) -> Problem {
           "materials": {{ "rock": {{ "young": 1e4, "poisson": 0.3 }} }},
           "steps": [ {{ "name": "load", "fix": {{ {} }},
             "load": {{ "l{last}.top": {{ "traction": [0.3, -1.0] }} }} }} ] }}"#,
-        bodies.join(", "),
-        joints.join(", "),
+        subdomains.join(", "),
+        interfaces.join(", "),
         fix.join(", "),
         last = edges.len() - 1
     );
@@ -50,18 +50,25 @@ fn solve(problem: &Problem) -> (Vec<f64>, Vec<f64>) {
     let model = &problem.model;
     let pattern = model.pattern();
     let continuum = model.continuum(&pattern);
-    let stiffness: Vec<Vec<f64>> =
-        model.joints.iter().map(|joint| [1e7, 0.0, 0.0, 1e7].repeat(joint.coupling.points.len())).collect();
-    let system =
-        System { joints: &model.joints, stiffness: &stiffness, pattern: &pattern, continuum: &continuum };
-    let stage = &problem.stages[0];
-    let f = stage.force(model, 1.0).unwrap();
+    let stiffness: Vec<Vec<f64>> = model
+        .interfaces
+        .iter()
+        .map(|interface| [1e7, 0.0, 0.0, 1e7].repeat(interface.coupling.points.len()))
+        .collect();
+    let system = System {
+        interfaces: &model.interfaces,
+        stiffness: &stiffness,
+        pattern: &pattern,
+        continuum: &continuum,
+    };
+    let step = &problem.steps[0];
+    let f = step.force(model, 1.0).unwrap();
     let order = nested_dissection(&pattern, &model.coordinates());
     let cut = Cut::new(&pattern, &order);
     let in_parts = FactorPlan::InParts(Parts::new(&pattern, cut).unwrap());
     let joined = FactorPlan::Joined(Symbolic::with_order(&pattern, &order).unwrap());
     let [a, b] = [in_parts, joined].map(|plan| {
-        let solution = Linear::new(system, &plan, &stage.held).unwrap().solve(&f, &vec![0.0; f.len()]);
+        let solution = Linear::new(system, &plan, &step.constrained).unwrap().solve(&f, &vec![0.0; f.len()]);
         assert!(solution.backward_error < 1e-14, "{}: {:e}", plan.method().name(), solution.backward_error);
         solution.u
     });

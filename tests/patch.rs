@@ -75,15 +75,15 @@ fn a_constant_stress_passes_any_two_meshes() {
                 let (states, _) = solve(&problem);
                 let snapshot = &states[0].snapshot;
                 let case = format!("{shape:?} {a}:{b} {coupling}");
-                for (body, (stress, _, exact)) in sides.iter().enumerate() {
-                    for (node, &x) in problem.model.bodies[body].mesh.points.iter().enumerate() {
-                        let u = displacement(&problem, &states[0], body, node);
+                for (subdomain, (stress, _, exact)) in sides.iter().enumerate() {
+                    for (node, &x) in problem.model.subdomains[subdomain].mesh.points.iter().enumerate() {
+                        let u = displacement(&problem, &states[0], subdomain, node);
                         for d in 0..2 {
                             close(u[d], exact(x)[d], 1e-10, 1e-3, &case);
                             worst[0] = worst[0].max((u[d] - exact(x)[d]).abs() / 1e-3);
                         }
                     }
-                    for cell in &snapshot.stresses[body].cells {
+                    for cell in &snapshot.stresses[subdomain].cells {
                         let [xx, yy, _, xy] = *cell;
                         for (got, exact) in [xx, yy, xy].into_iter().zip(*stress) {
                             close(got, exact, 1e-10, 6.0, &case);

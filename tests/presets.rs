@@ -72,8 +72,8 @@ fn a_preset_fills_what_the_scene_leaves_open() {
         let even = |n: f64| 2.0 * (n * preset.density / 2.0).round();
         assert_eq!(scene.subdomains["lower"].parameters["edges"], even(10.0));
         assert_eq!(scene.subdomains["upper"].parameters["edges"], even(12.0));
-        for body in scene.subdomains.values() {
-            assert_eq!(body.parameters["order"], f64::from(preset.order));
+        for subdomain in scene.subdomains.values() {
+            assert_eq!(subdomain.parameters["order"], f64::from(preset.order));
         }
         assert_eq!((scene.solution.tolerance, scene.solution.iterations), (preset.tolerance, 7));
         assert_eq!(scene.interfaces["joint"].law_tolerance, preset.law_tolerance);

@@ -1,4 +1,4 @@
-//! Claim: where all joints are elastic, an increment of a ramp is the answer to the loads at its level, whatever increments
+//! Claim: where all interfaces are elastic, an increment of a ramp is the answer to the loads at its level, whatever increments
 //! come before it.
 
 mod common;
@@ -9,8 +9,8 @@ use midplane::problem::Problem;
 use midplane::shape::Shape;
 
 /// Pressed, then pushed and pressed on to a part of what is asked for: loads and displacements of the push at `level`.
-fn scene(increments: usize, level: f64, fields: &str) -> String {
-    let (pressure, x, weight) = (2.0 + 3.0 * level, 4e-4 * level, -5.0 * level);
+fn scene(increments: usize, load_factor: f64, fields: &str) -> String {
+    let (pressure, x, weight) = (2.0 + 3.0 * load_factor, 4e-4 * load_factor, -5.0 * load_factor);
     format!(
         r#"{{"plane": "strain",
         "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
@@ -29,11 +29,11 @@ fn scene(increments: usize, level: f64, fields: &str) -> String {
     )
 }
 
-fn problem(increments: usize, level: f64, fields: &str) -> Problem {
+fn problem(increments: usize, load_factor: f64, fields: &str) -> Problem {
     let block = |n: usize, y: f64| -> Mesh {
         rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral8, |x, y| [x, y])
     };
-    bind(&scene(increments, level, fields), vec![block(3, -0.2), block(4, 0.0)]).unwrap()
+    bind(&scene(increments, load_factor, fields), vec![block(3, -0.2), block(4, 0.0)]).unwrap()
 }
 
 /// Columns of the history, work and stored energy.

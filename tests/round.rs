@@ -53,13 +53,13 @@ fn displaced(group: &str, u: &Polar) -> String {
 /// Relative errors in L2: displacement of both bodies, traction at the law points.
 fn errors(problem: &Problem, state: &ModelState, exact: &Round) -> [f64; 2] {
     let mut displacement = [0.0; 2];
-    for (b, body) in problem.model.bodies.iter().enumerate() {
+    for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
         let u = &state.snapshot.u[problem.model.dofs_of(b)];
-        let sums = l2_error(&body.mesh, u, |x| exact.u[b].u(x));
+        let sums = l2_error(&subdomain.mesh, u, |x| exact.u[b].u(x));
         (displacement[0], displacement[1]) = (displacement[0] + sums[0], displacement[1] + sums[1]);
     }
     let mut traction = [0.0; 2];
-    for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
+    for (point, t) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
         let [x, y] = point.position;
         let r2 = x * x + y * y;
         let (c2, s2) = ((x * x - y * y) / r2, 2.0 * x * y / r2);
@@ -99,8 +99,8 @@ fn converges(
                 let kn = number * 1e4 / 0.2;
                 let exact = exact(kn, 0.5 * kn);
                 let mut all = [Vec::new(), Vec::new()];
-                for level in 0..if quadratic { 3 } else { 5 } {
-                    let n = if quadratic { fine } else { 8 } << level;
+                for load_factor in 0..if quadratic { 3 } else { 5 } {
+                    let n = if quadratic { fine } else { 8 } << load_factor;
                     let rows = n / 4;
                     let mesh = |edges: usize, rows: usize, r: [f64; 2], from: f64| {
                         ring(edges, &even(r[0], r[1], rows), shape, from)
@@ -195,17 +195,19 @@ fn stiff_rings_transmit_the_pressure() {
     for kn in [1e8, 1e10] {
         let exact = rings(kn, kn, 10.0, 0.0);
         let mut errors = Vec::new();
-        for level in 0..3 {
-            let [a, b] = [12 << level, 17 << level];
-            let mesh =
-                |n: usize, r: [f64; 2]| quarter(n, &even(r[0], r[1], 6 << level), Shape::Quadrilateral4);
+        for load_factor in 0..3 {
+            let [a, b] = [12 << load_factor, 17 << load_factor];
+            let mesh = |n: usize, r: [f64; 2]| {
+                quarter(n, &even(r[0], r[1], 6 << load_factor), Shape::Quadrilateral4)
+            };
             let step = r#""fix": { "a.left": ["x"], "b.left": ["x"], "a.right": ["y"], "b.right": ["y"] },
                 "load": { "a.bottom": { "pressure": 10 } }"#;
             let text = scene(&exact, [kn, kn], "projected", step);
             let problem = bind(&text, vec![mesh(a, [1.0, 1.5]), mesh(b, [1.5, 2.0])]).unwrap();
             let state = solve(&problem).0.remove(0);
             let (mut error, mut length) = ([0.0; 2], 0.0);
-            for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0])
+            for (point, t) in
+                problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.tractions[0])
             {
                 error[0] += point.weight * (t[0] / exact.normal[0] - 1.0).powi(2);
                 error[1] += point.weight * (t[1] / exact.normal[0]).powi(2);
@@ -237,7 +239,7 @@ fn stiff_rings_transmit_the_pressure() {
 
 /// Claim: a half ring on a frictionless half ring may turn about the centre; what resists it is the mesh alone, and is warned of.
 #[test]
-fn a_half_ring_on_a_frictionless_half_ring_is_hardly_held() {
+fn a_half_ring_on_a_frictionless_half_ring_is_hardly_constrained() {
     let half = |n: usize, r: [f64; 2]| {
         bent(&even(0.0, 1.0, n), &even(r[0], r[1], 3), Shape::Quadrilateral4, |x, r| {
             [r * (PI * (1.0 - x)).cos(), r * (PI * (1.0 - x)).sin()]

@@ -119,7 +119,7 @@ fn midplane(folder: &Path, scene: &str, arguments: &[&str]) -> Output {
     command.current_dir(folder).args(arguments).output().unwrap()
 }
 
-/// u = σ x/E, and 5 MPa / K_N more on the other side of the joint.
+/// u = σ x/E, and 5 MPa / K_N more on the other side of the interface.
 #[test]
 fn a_conforming_mesh_opens_into_a_matched_interface_and_is_meshed_once() {
     let by_name = SCENE.to_string();

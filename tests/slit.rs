@@ -1,5 +1,5 @@
 //! Claim: a slit inside one body, its lips two curves of that body that share the tips, is joined to itself: closed by a
-//! stiff joint the body is what it is without the slit, whether the nodes of the lips match or not.
+//! stiff interface the body is what it is without the slit, whether the nodes of the lips match or not.
 //!
 //! ```text
 //!   ┌───────────────┐
@@ -35,7 +35,7 @@ fn solved(inside: [usize; 2], k: f64, supports: &str, loads: &str) -> (Problem, 
           "steps": [ {{ "name": "press", "fix": {{ {supports} }}, "load": {{ {loads} }} }} ] }}"#
     );
     let problem = bind(&text, vec![mesh]).unwrap();
-    let segments = &problem.model.joints[0].coupling.midplane.segments;
+    let segments = &problem.model.interfaces[0].coupling.midplane.segments;
     assert!((segments.iter().map(|g| g.end - g.start).sum::<f64>() - 0.4).abs() < 1e-15);
     let state = solve(&problem).0.remove(0);
     (problem, state)
@@ -44,22 +44,23 @@ fn solved(inside: [usize; 2], k: f64, supports: &str, loads: &str) -> (Problem, 
 const LIPS: [[usize; 2]; 3] = [[8, 8], [8, 12], [9, 14]];
 
 #[test]
-fn b28_a_slit_closed_by_a_stiff_joint_is_none() {
+fn b28_a_slit_closed_by_a_stiff_interface_is_none() {
     for inside in LIPS {
-        // the joint gives by p/K, which strains the elements beside it, at least 0.4/14 wide, by no more than 10 p/(K h)
+        // the interface gives by p/K, which strains the elements beside it, at least 0.4/14 wide, by no more than 10 p/(K h)
         for k in [1e9, 1e11] {
             let limit = 10.0 * E / (k * 0.4 / 14.0);
             let (problem, state) =
                 solved(inside, k, r#""a.bottom": ["y"], "a.left": ["x"]"#, r#""a.top": { "pressure": 10 }"#);
             // the shared tips do not open: nodal jumps are off by e with e₋ + 4 e + e₊ = 0 from there on
             let h = 0.4 / 8.0;
-            for (p, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
+            for (p, t) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.tractions[0])
+            {
                 let cells = |x: f64| ((p.position[0] - x).abs() / h).floor();
                 let off = (2.0 - 3f64.sqrt()).powf(cells(0.3)) + (2.0 - 3f64.sqrt()).powf(cells(0.7));
                 let good = (t[0] + P).abs() < (off + limit) * P && t[1].abs() < limit * P;
                 assert!(good || inside != [8, 8], "{k:e}: {t:?} at {}", p.s);
             }
-            for (i, [_, y]) in problem.model.bodies[0].mesh.points.iter().enumerate() {
+            for (i, [_, y]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, 0, i);
                 close(u[1], -P * (y + 0.5) / E, limit, P / E, "u_y");
                 close(u[0], 0.0, limit, P / E, "u_x");
@@ -68,7 +69,7 @@ fn b28_a_slit_closed_by_a_stiff_joint_is_none() {
     }
 }
 
-/// Pressed along the slit nothing passes through the joint: exact at any stiffness.
+/// Pressed along the slit nothing passes through the interface: exact at any stiffness.
 #[test]
 fn b28_a_slit_along_the_pressure_carries_nothing() {
     let supports = r#""a.left": ["x"], "a.left above": ["x"], "a.corner": ["y"]"#;
@@ -77,7 +78,7 @@ fn b28_a_slit_along_the_pressure_carries_nothing() {
         for k in [1e3, 1e8] {
             let (problem, state) = solved(inside, k, supports, loads);
             assert!(state.snapshot.tractions[0].as_flattened().iter().all(|t| t.abs() < 1e-8 * P));
-            for (i, [x, _]) in problem.model.bodies[0].mesh.points.iter().enumerate() {
+            for (i, [x, _]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, 0, i);
                 close(u[0], -P * x / E, 1e-11, P / E, "u_x");
                 close(u[1], 0.0, 1e-11, P / E, "u_y");

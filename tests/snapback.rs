@@ -54,8 +54,8 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
         let problem = bind(&scene(end, control, strategy), vec![bar(-length / 2.0), bar(0.0)]).unwrap();
         let march = try_solve(&problem);
         let (mut lowest, mut turn) = (CHI, (f64::INFINITY, 0.0));
-        for (state, level) in march.states.iter().zip(&march.load_factors) {
-            let (u, s) = (level * end, state.snapshot.tractions[0][0][0]);
+        for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
+            let (u, s) = (load_factor * end, state.snapshot.tractions[0][0][0]);
             let what = format!("L = {length}, {strategy}, {control}: u = {u:e}, stress {s}");
             let on_path = if state.dissipated > 0.0 { exact(s) } else { s * c };
             // below a hundredth of the strength what is left to dissipate is lost in the law's own tolerance
@@ -78,7 +78,7 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
         let totals = march.end.unwrap();
         assert!(totals.energy_balance < 5e-3);
         // the load level turns at the peak, and where the path rises again
-        let turns: Vec<f64> = totals.turns.iter().map(|(_, _, level)| level * end).collect();
+        let turns: Vec<f64> = totals.turns.iter().map(|(_, _, load_factor)| load_factor * end).collect();
         assert_eq!(turns.len(), 2, "{turns:?}");
         close(turns[1], exact_turn, 1e-4, exact_turn, "turning point");
         assert!(turns[0] <= peak * (1.0 + 1e-9) && turns[0] > 0.95 * peak, "{turns:?}");
@@ -98,10 +98,10 @@ fn an_increment_that_goes_too_far_from_the_start_is_divided() {
     let march = try_solve(&problem);
     assert!(march.end.is_ok(), "{:?}", march.end.err());
     assert!(march.states.len() > 5);
-    for (state, level) in march.states.iter().zip(&march.load_factors) {
+    for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
         let s = state.snapshot.tractions[0][0][0];
         let u = if state.dissipated > 0.0 { exact(s) } else { s * c };
-        close(level * end, u, 1e-6, CHI * c, "on the path");
+        close(load_factor * end, u, 1e-6, CHI * c, "on the path");
     }
 }
 
@@ -133,11 +133,11 @@ fn load_control_snaps_from_the_peak_to_the_far_branch_and_tells_it() {
             let march = try_solve(&bind(&text, vec![bar(-length / 2.0), bar(0.0)]).unwrap());
             let totals = march.end.unwrap();
             assert_eq!(totals.snaps.len(), 1, "{what}: {:?}", totals.snaps);
-            let level = totals.snaps[0].load_factor * 1.2;
-            assert!((1.0..1.0 + 2e-3).contains(&level), "{what}: snaps at {level} of the peak");
+            let load_factor = totals.snaps[0].load_factor * 1.2;
+            assert!((1.0..1.0 + 2e-3).contains(&load_factor), "{what}: snaps at {load_factor} of the peak");
             assert_eq!(march.states.len(), increments, "{what}");
-            for (state, level) in march.states.iter().zip(&march.load_factors) {
-                let u = level * end;
+            for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
+                let u = load_factor * end;
                 let s = if u < CHI * c { u / c } else { far_branch(u, c) };
                 for [traction, _] in &state.snapshot.tractions[0] {
                     close(*traction, s, 1e-6, CHI, &what);
@@ -168,8 +168,8 @@ fn many_points_that_crack_at_once_end_as_the_closed_form_says_in_any_increments(
             let march = try_solve(&bind(&text, vec![bar(11, -length / 2.0), bar(16, 0.0)]).unwrap());
             let totals = march.end.unwrap();
             assert!(totals.snaps.is_empty(), "{what}");
-            for (state, level) in march.states.iter().zip(&march.load_factors) {
-                let u = level * end;
+            for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
+                let u = load_factor * end;
                 let s = if u < CHI * c { u / c } else { far_branch(u, c) };
                 for [traction, _] in &state.snapshot.tractions[0] {
                     close(*traction, s, 1e-5, CHI, &what);

@@ -43,8 +43,8 @@ const PRESS: &str =
     r#"{"name": "press", "fix": {"lower.bottom": ["x", "y"]}, "load": {"upper.top": {"pressure": 2}}}"#;
 
 #[test]
-fn a_held_group_stays_and_a_released_one_gives_back_its_reaction() {
-    // pushed by a load, held there, the load taken away, released: with elastic joints back where it came from
+fn a_constrained_group_stays_and_a_released_one_gives_back_its_reaction() {
+    // pushed by a load, held there, the load taken away, released: with elastic interfaces back where it came from
     let steps = [
         PRESS,
         r#"{"name": "push", "increments": 2, "load": {"upper.left": {"traction": [0.5, 0]}}}"#,
@@ -150,7 +150,7 @@ fn increments_that_were_cut_leave_no_trace() {
     }
 }
 
-/// What the law points of the joint remember.
+/// What the law points of the interface remember.
 fn of_points<T>(state: &ModelState, what: impl Fn(&law::State) -> Vec<T>) -> Vec<T> {
     state.snapshot.states[0].iter().flat_map(what).collect()
 }

@@ -1,4 +1,4 @@
-//! Claim: with `projected` neither displacement nor traction loses digits to the stiffness of a joint, whether the body above
+//! Claim: with `projected` neither displacement nor traction loses digits to the stiffness of an interface, whether the body above
 //! is held or floats: patches of constant stress at K h/E from 1e-2 to 1e16, and far beyond.
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! A is held at its bottom by the exact displacement, the sides carry the exact tractions. B carries the exact traction on its
-//! top (it floats on the joint) or is held there by the exact displacement.
+//! top (it floats on the interface) or is held there by the exact displacement.
 
 mod common;
 #[path = "common/table.rs"]
@@ -62,7 +62,7 @@ fn patch(
         format!(r#""{name}": {{ "traction": [{x}, {y}] }}"#)
     };
     let [x, y] = turned(snt, snn);
-    let (top, held) = if floating {
+    let (top, constrained) = if floating {
         (format!(r#", "b.top": {{ "traction": [{x}, {y}] }}"#), String::new())
     } else {
         (String::new(), format!(r#", "b.top": {}"#, formulas(1)))
@@ -73,7 +73,7 @@ fn patch(
         "materials": {{ "hard": {{ "young": {}, "poisson": {} }}, "soft": {{ "young": {}, "poisson": {} }} }},
         "interfaces": {{ "joint": {{ "side_a": "a.top", "side_b": "b.bottom",
           "law": {{ "type": "elastic", "normal_stiffness": {kn:e}, "tangential_stiffness": {kt:e} }} }} }},
-        "steps": [ {{ "name": "go", "displace": {{ "a.bottom": {} {held} }},
+        "steps": [ {{ "name": "go", "displace": {{ "a.bottom": {} {constrained} }},
           "load": {{ {}, {}, {}, {} {top} }} }} ] }}"#,
         E[0],
         NU[0],
@@ -89,9 +89,9 @@ fn patch(
     let problem = bind(&text, vec![mesh(a, &even(-0.5, 0.0, 4)), mesh(b, &even(0.0, 0.7, 6))]).unwrap();
     let (states, totals) = solve(&problem);
     let (mut wrong, mut largest) = ([0.0_f64; 2], 0.0_f64);
-    for body in 0..2 {
-        for (node, &x) in problem.model.bodies[body].mesh.points.iter().enumerate() {
-            let (u, exact) = (displacement(&problem, &states[0], body, node), exact(body, x));
+    for subdomain in 0..2 {
+        for (node, &x) in problem.model.subdomains[subdomain].mesh.points.iter().enumerate() {
+            let (u, exact) = (displacement(&problem, &states[0], subdomain, node), exact(subdomain, x));
             wrong[0] = wrong[0].max((u[0] - exact[0]).abs()).max((u[1] - exact[1]).abs());
             largest = largest.max(exact[0].abs()).max(exact[1].abs());
         }

@@ -1,5 +1,5 @@
-//! Claim: structures with many joints end alike whatever the increments: a notched beam in bending, a panel of three by three
-//! bricks and a T of three joints, with 1, 5 and 50 increments.
+//! Claim: structures with many interfaces end alike whatever the increments: a notched beam in bending, a panel of three by three
+//! bricks and a T of three interfaces, with 1, 5 and 50 increments.
 //!
 //! ```text
 //!  ↓ u              ┌──┬──┬──┐ → u      ←┌────┬────┐→ u
@@ -43,7 +43,9 @@ fn compare(what: &str, scene: impl Fn(usize) -> String, meshes: impl Fn() -> Vec
         let march = try_solve(&problem);
         let totals = march.end.unwrap_or_else(|error| panic!("{what}, {increments} increments: {error}"));
         let rows: Vec<Vec<f64>> = (march.states.iter().zip(&march.load_factors))
-            .filter(|(_, level)| (5.0 * *level - (5.0 * *level).round()).abs() < 1e-9 && **level > 0.0)
+            .filter(|(_, load_factor)| {
+                (5.0 * *load_factor - (5.0 * *load_factor).round()).abs() < 1e-9 && **load_factor > 0.0
+            })
             .map(|(state, _)| {
                 let mut row = state.probes(&problem);
                 row.extend([state.stored, state.dissipated, state.released]);
@@ -153,14 +155,14 @@ fn a_panel_of_three_by_three_bricks() {
             &[0, 1, 3, 4, 6, 7],
         );
         let bottom = all(&|k| format!(r#""b{k}.bottom": ["x", "y"]"#), &every[..3]);
-        let held = all(&|k| format!(r#""b{k}.top": ["x"]"#), &every[6..]);
+        let constrained = all(&|k| format!(r#""b{k}.top": ["x"]"#), &every[6..]);
         let pressed = all(&|k| format!(r#""b{k}.top": {{"pressure": 0.5}}"#), &every[6..]);
         let pushed = all(&|k| format!(r#""b{k}.top": {{"x": 2e-4}}"#), &every[6..]);
         let shear = all(&|k| format!(r#""shear{k}": "bed{k}.resultant_t""#), &every[..3]);
         format!(
             r#"{{"plane": "stress", "subdomains": {{{bricks}}},
             "materials": {{"brick": {{"young": 1e4, "poisson": 0.2}}}}, "interfaces": {{{beds}, {heads}}},
-            "steps": [{{"name": "press", "fix": {{{bottom}, {held}}}, "load": {{{pressed}}}}},
+            "steps": [{{"name": "press", "fix": {{{bottom}, {constrained}}}, "load": {{{pressed}}}}},
                       {{"name": "push", "increments": {increments}, "displace": {{{pushed}}}}}],
             "output": {{"history": {{{shear}}}}}}}"#
         )
@@ -169,7 +171,7 @@ fn a_panel_of_three_by_three_bricks() {
 }
 
 #[test]
-fn a_t_of_joints() {
+fn a_t_of_interfaces() {
     let meshes = || {
         vec![
             block([-0.1, 0.1], [-0.1, 0.0], [10, 5]),
@@ -178,13 +180,13 @@ fn a_t_of_joints() {
         ]
     };
     let scene = |increments: usize| {
-        let joint = |name: &str, a: &str, b: &str| {
+        let interface = |name: &str, a: &str, b: &str| {
             format!(r#""{name}": {{"side_a": "{a}", "side_b": "{b}", "law": {{{CONCRETE}}}}}"#)
         };
-        let joints = [
-            joint("left", "base.top", "l.bottom"),
-            joint("right", "base.top", "r.bottom"),
-            joint("web", "l.right", "r.left"),
+        let interfaces = [
+            interface("left", "base.top", "l.bottom"),
+            interface("right", "base.top", "r.bottom"),
+            interface("web", "l.right", "r.left"),
         ];
         format!(
             r#"{{"plane": "stress", "subdomains": {{"base": {{"msh": "b", "material": "m"}}, "l": {{"msh": "l", "material": "m"}},
@@ -193,7 +195,7 @@ fn a_t_of_joints() {
             "steps": [{{"name": "part", "increments": {increments}, "fix": {{"base.bottom": ["x", "y"]}},
               "displace": {{"l.left": {{"x": -1e-4}}, "r.right": {{"x": 1e-4}}}}}}],
             "output": {{"history": {{"web": "web.resultant_n", "left": "left.resultant_t", "right": "right.resultant_t"}}}}}}"#,
-            joints.join(",")
+            interfaces.join(",")
         )
     };
     compare("T", scene, meshes);

@@ -75,8 +75,8 @@ fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
     }
     assert_eq!(count("joints"), 0);
     for row in &rows {
-        let [lower, upper] =
-            ["lower", "upper"].map(|body| format!("subdomains.{body}.parameters.edges={}", row[body]));
+        let [lower, upper] = ["lower", "upper"]
+            .map(|subdomain| format!("subdomains.{subdomain}.parameters.edges={}", row[subdomain]));
         let run = ["run", "scene.json", "-o", "single", "--set", &lower, "--set", &upper];
         assert!(strip.midplane(&run).status.success());
         let history = std::fs::read_to_string(strip.path("single/history.csv")).unwrap();
@@ -90,7 +90,7 @@ fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
     }
 }
 
-/// Points that differ in the law only share everything before it: meshes, joints, stiffness, factors.
+/// Points that differ in the law only share everything before it: meshes, interfaces, stiffness, factors.
 #[test]
 fn points_that_differ_in_the_law_share_everything_before_it() {
     let strip = Strip::new(
@@ -140,8 +140,8 @@ fn a_field_is_compared_with_formulas() {
 #[test]
 fn the_finest_runs_stand_for_an_exact_answer() {
     let density = |n: usize| {
-        let part = |body: &str, edges: usize, rows: usize| {
-            let key = format!("\"subdomains.{body}.parameters");
+        let part = |subdomain: &str, edges: usize, rows: usize| {
+            let key = format!("\"subdomains.{subdomain}.parameters");
             format!("{key}.edges\": {edges}, {key}.rows\": {rows}, {key}.order\": 1")
         };
         format!("{{ {}, {} }}", part("lower", 8 * n, 6 * n), part("upper", 12 * n, 7 * n))
@@ -222,7 +222,7 @@ fn points_have_processes_of_their_own() {
 }
 
 #[test]
-fn bad_input_is_refused_with_place_and_cure() {
+fn bad_input_is_refused_with_place_and_help() {
     for (study, expected) in [
         ("{", "study.json:1: EOF while parsing an object"),
         (r#"{ "axis": {} }"#, "unknown key \"axis\"; there is $schema, title, scene, set, axes"),

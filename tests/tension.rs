@@ -1,4 +1,4 @@
-//! Claim: two bars in series with a cohesive joint follow the exact path under tension (stable branch, and jump where it
+//! Claim: two bars in series with a cohesive interface follow the exact path under tension (stable branch, and jump where it
 //! snaps back), and the work done until they part is the fracture energy.
 //!
 //! ```text

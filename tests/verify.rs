@@ -50,7 +50,7 @@ fn only(problem: &Problem) -> ModelState {
     solve(problem).0.remove(0)
 }
 
-/// RMS along the joint of the error of one traction component, over the RMS of the exact one.
+/// RMS along the interface of the error of one traction component, over the RMS of the exact one.
 fn traction_error(
     problem: &Problem,
     state: &ModelState,
@@ -58,7 +58,7 @@ fn traction_error(
     exact: impl Fn(f64) -> f64,
 ) -> f64 {
     let (mut error, mut norm) = (0.0, 0.0);
-    for (point, t) in problem.model.joints[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
+    for (point, t) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
         let x = exact(point.position[0]);
         error += point.weight * (t[component] - x).powi(2);
         norm += point.weight * x * x;
@@ -66,7 +66,7 @@ fn traction_error(
     (error / norm).sqrt()
 }
 
-/// Claim: a normal stress that varies linearly along the joint, σ_yy = s_m + s_g x/a and nothing else, is exact for T6
+/// Claim: a normal stress that varies linearly along the interface, σ_yy = s_m + s_g x/a and nothing else, is exact for T6
 /// and Q8 on any two meshes with both couplings; T3 and Q4 converge with h².
 ///
 /// With E′ = E, ν′ = ν (plane stress), e = s_m/E, k = s_g/(aE): u_x = −ν e x − k/2 (y² + ν x²), u_y = e y + k x y;
@@ -123,13 +123,13 @@ fn case_2_bending_patch() {
                     layers([&x[0], &x[1]], h, shape, "stress", [(e, nu); 2], (kn, kn), coupling, &step);
                 let state = only(&problem);
                 let mut error_u = 0.0_f64;
-                for (b, body) in problem.model.bodies.iter().enumerate() {
-                    for (i, p) in body.mesh.points.iter().enumerate() {
+                for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
+                    for (i, p) in subdomain.mesh.points.iter().enumerate() {
                         let (got, exact) = (displacement(&problem, &state, b, i), u(b, p[0], p[1]));
                         error_u = error_u.max((got[0] - exact[0]).abs()).max((got[1] - exact[1]).abs());
                     }
                 }
-                let points = problem.model.joints[0].coupling.points.iter();
+                let points = problem.model.interfaces[0].coupling.points.iter();
                 let error_t = points
                     .zip(&state.snapshot.tractions[0])
                     .map(|(p, t)| (t[0] - (sm + sg * p.position[0] / a)).abs().max(t[1].abs()));
@@ -150,20 +150,20 @@ fn case_2_bending_patch() {
 /// L2 norm of the displacement error and energy norm of the strain error, squared.
 fn errors(problem: &Problem, state: &ModelState, exact: &Manufactured) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for (layer, body) in problem.model.bodies.iter().enumerate() {
-        for c in 0..body.mesh.cells.len() {
-            let shape = body.mesh.cells.shapes[c];
-            let nodes = body.mesh.cells.nodes(c);
+    for (layer, subdomain) in problem.model.subdomains.iter().enumerate() {
+        for c in 0..subdomain.mesh.cells.len() {
+            let shape = subdomain.mesh.cells.shapes[c];
+            let nodes = subdomain.mesh.cells.nodes(c);
             for &[xi, eta, weight] in shape.load_rule() {
                 let values = shape.values(xi, eta);
                 let (mut x, mut u, mut jacobian) = ([0.0; 2], [0.0; 2], nalgebra::Matrix2::<f64>::zeros());
                 for (i, &node) in nodes.iter().enumerate() {
                     let nodal = displacement(problem, state, layer, node);
                     for d in 0..2 {
-                        x[d] += values.n[i] * body.mesh.points[node][d];
+                        x[d] += values.n[i] * subdomain.mesh.points[node][d];
                         u[d] += values.n[i] * nodal[d];
                         for a in 0..2 {
-                            jacobian[(a, d)] += values.dn[i][a] * body.mesh.points[node][d];
+                            jacobian[(a, d)] += values.dn[i][a] * subdomain.mesh.points[node][d];
                         }
                     }
                 }
@@ -178,7 +178,7 @@ fn errors(problem: &Problem, state: &ModelState, exact: &Manufactured) -> [f64; 
                 }
                 let area = weight * jacobian.determinant();
                 let u_exact = exact.u(layer, x[0], x[1]);
-                let stress = body.elasticity.stress(strain);
+                let stress = subdomain.elasticity.stress(strain);
                 sums[0] += area * ((u[0] - u_exact[0]).powi(2) + (u[1] - u_exact[1]).powi(2));
                 sums[1] += area * (0..3).map(|i| strain[i] * stress[i]).sum::<f64>();
             }
@@ -278,8 +278,8 @@ fn mesh(name: &str, n: usize) -> [Vec<f64>; 2] {
 fn halvings(shape: Shape, name: &str, k: f64, coupling: &str) -> [Vec<f64>; 2] {
     let first = if shape.is_quadratic() { 2 } else { 4 };
     let all: Vec<[f64; 2]> = (0..4)
-        .map(|level| {
-            let x = mesh(name, first << level);
+        .map(|load_factor| {
+            let x = mesh(name, first << load_factor);
             strip_errors([&x[0], &x[1]], shape, k, coupling)
         })
         .collect();
@@ -319,7 +319,7 @@ fn case_5b_strip_under_harmonic_pressure() {
                     format!("{:.2}", rates[1]),
                 ]);
                 let name = format!("{shape:?} {mesh} {stiffness:e}");
-                // one cell at either end of a stiff joint is off by h, which is h^1.5 in L2
+                // one cell at either end of a stiff interface is off by h, which is h^1.5 in L2
                 let (order, band) = match (shape.is_quadratic(), stiffness > 1.0) {
                     (true, _) => (4.0, 2.8..=3.1),
                     (false, false) => (2.0, 1.95..=2.1),
@@ -373,7 +373,7 @@ fn case_5b_linear_and_quadratic_grids() {
     table.finish();
 }
 
-/// Claim: the discretisation error does not grow with the stiffness of the joint: with `projected` the traction error at
+/// Claim: the discretisation error does not grow with the stiffness of the interface: with `projected` the traction error at
 /// K h/E = 800 is below 3 % (5 % at 4:40, 8 % at 40:4) and the same to 1 % from 1e3 to 1e8; `pointwise` is shown beside.
 /// The model error against a perfect bond falls with slope −1.
 #[test]

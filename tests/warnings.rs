@@ -3,7 +3,7 @@
 use midplane::error::Code;
 
 #[test]
-fn every_code_has_its_section_with_reason_and_cure() {
+fn every_code_has_its_section_with_reason_and_help() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/WARNINGS.md");
     let text = std::fs::read_to_string(path).unwrap();
     let sections: Vec<&str> = text.split("\n## ").skip(1).collect();

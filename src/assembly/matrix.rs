@@ -55,12 +55,12 @@ impl Symmetric {
 
     /// Rows and columns of `held` dofs replaced by their diagonal, so that the rest is positive definite alone. Returns
     /// what `release` puts back.
-    pub fn hold(&mut self, pattern: &Pattern, held: &[bool]) -> Vec<(usize, f64)> {
+    pub fn hold(&mut self, pattern: &Pattern, constrained: &[bool]) -> Vec<(usize, f64)> {
         let mut taken = Vec::new();
         for j in 0..pattern.size() {
             for at in pattern.column(j) {
                 let i = pattern.rows[at] as usize;
-                if i != j && (held[i] || held[j]) {
+                if i != j && (constrained[i] || constrained[j]) {
                     taken.push((at, std::mem::take(&mut self.values[at])));
                 }
             }

@@ -4,13 +4,13 @@
 //! dof = components · (first node of the body + node) + direction
 //! ```
 
-mod joint;
+mod interface;
 mod matrix;
 mod pattern;
 mod stiffness;
 mod tangent;
 
-pub use joint::Joint;
+pub use interface::InterfaceOperator;
 pub use matrix::Symmetric;
 pub use pattern::Pattern;
 pub use stiffness::add_stiffness;
@@ -38,7 +38,7 @@ pub struct Body {
     pub pieces: Vec<Vec<usize>>,
 }
 
-/// All bodies and joints with their numbering.
+/// All bodies and interfaces with their numbering.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// Displacement components per node.
@@ -46,15 +46,15 @@ pub struct Model {
     /// Thickness out of the plane [length].
     pub thickness: f64,
     /// The bodies, their nodes numbered one after the other.
-    pub bodies: Vec<Body>,
-    /// The joints on global dofs.
-    pub joints: Vec<Joint>,
+    pub subdomains: Vec<Body>,
+    /// The interfaces on global dofs.
+    pub interfaces: Vec<InterfaceOperator>,
 }
 
 impl Model {
     /// Number of nodes of all bodies.
     pub fn nodes(&self) -> usize {
-        self.bodies.last().map_or(0, |body| body.first_node + body.mesh.points.len())
+        self.subdomains.last().map_or(0, |subdomain| subdomain.first_node + subdomain.mesh.points.len())
     }
 
     /// Number of dofs, held ones included.
@@ -63,17 +63,18 @@ impl Model {
     }
 
     /// Dofs of one body.
-    pub fn dofs_of(&self, body: usize) -> std::ops::Range<usize> {
-        let body = &self.bodies[body];
-        self.components * body.first_node..self.components * (body.first_node + body.mesh.points.len())
+    pub fn dofs_of(&self, subdomain: usize) -> std::ops::Range<usize> {
+        let subdomain = &self.subdomains[subdomain];
+        self.components * subdomain.first_node
+            ..self.components * (subdomain.first_node + subdomain.mesh.points.len())
     }
 
-    /// Nodes that a joint touches.
+    /// Nodes that an interface touches.
     pub fn joined(&self) -> Vec<bool> {
         let mut joined = vec![false; self.nodes()];
-        for joint in &self.joints {
-            for i in 0..joint.size() {
-                joint.row(i).0.iter().for_each(|&dof| joined[dof / self.components] = true);
+        for interface in &self.interfaces {
+            for i in 0..interface.size() {
+                interface.row(i).0.iter().for_each(|&dof| joined[dof / self.components] = true);
             }
         }
         joined
@@ -81,7 +82,7 @@ impl Model {
 
     /// Coordinates of all nodes, one node after the other [length].
     pub fn coordinates(&self) -> Vec<f64> {
-        self.bodies.iter().flat_map(|body| body.mesh.points.as_flattened()).copied().collect()
+        self.subdomains.iter().flat_map(|subdomain| subdomain.mesh.points.as_flattened()).copied().collect()
     }
 
     /// The pattern of the bodies alone: a block for each.
@@ -91,13 +92,13 @@ impl Model {
 
     /// First node and nodes of every cell.
     fn cells(&self) -> impl Iterator<Item = (usize, &[usize])> + Clone {
-        self.bodies.iter().flat_map(|body| body.cells(body.first_node))
+        self.subdomains.iter().flat_map(|subdomain| subdomain.cells(subdomain.first_node))
     }
 
-    /// The pattern that continuum and joints fill together.
+    /// The pattern that continuum and interfaces fill together.
     pub fn pattern(&self) -> Pattern {
-        let joints: Vec<Vec<usize>> = self.joints.iter().flat_map(stiffness::cliques).collect();
-        let cliques = joints.iter().map(|nodes| (0, nodes.as_slice()));
+        let interfaces: Vec<Vec<usize>> = self.interfaces.iter().flat_map(stiffness::cliques).collect();
+        let cliques = interfaces.iter().map(|nodes| (0, nodes.as_slice()));
         Pattern::new(self.components, self.nodes(), || self.cells().chain(cliques.clone()))
     }
 
@@ -107,14 +108,14 @@ impl Model {
         // every body has columns of its own
         let mut parts: Vec<(&Body, usize, &mut [f64])> = Vec::new();
         let (mut rest, mut start) = (stiffness.values.as_mut_slice(), 0);
-        for (b, body) in self.bodies.iter().enumerate() {
+        for (b, subdomain) in self.subdomains.iter().enumerate() {
             let end = pattern.offsets[self.dofs_of(b).end] as usize;
             let (part, behind) = rest.split_at_mut(end - start);
-            parts.push((body, start, part));
+            parts.push((subdomain, start, part));
             (rest, start) = (behind, end);
         }
-        parts.into_par_iter().for_each(|(body, start, values)| {
-            body.add_stiffness(pattern, body.first_node, self.thickness, start, values);
+        parts.into_par_iter().for_each(|(subdomain, start, values)| {
+            subdomain.add_stiffness(pattern, subdomain.first_node, self.thickness, start, values);
         });
         stiffness
     }

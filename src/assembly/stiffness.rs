@@ -1,12 +1,12 @@
-//! Stiffness of a joint on the nodes: Gᵀ T G, and what it connects.
+//! Stiffness of an interface on the nodes: Gᵀ T G, and what it connects.
 
-use super::{InterfaceTangent, Joint, Pattern, Symmetric};
+use super::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 use crate::sparse::Csr;
 
-/// Sets of nodes that the joint's stiffness connects with each other.
-pub(super) fn cliques(joint: &Joint) -> Vec<Vec<usize>> {
-    let c = joint.coupling.components;
-    let product = multiplied(joint, &vec![1.0; c * c * joint.coupling.points.len()]);
+/// Sets of nodes that the interface's stiffness connects with each other.
+pub(super) fn cliques(interface: &InterfaceOperator) -> Vec<Vec<usize>> {
+    let c = interface.coupling.components;
+    let product = multiplied(interface, &vec![1.0; c * c * interface.coupling.points.len()]);
     let nodes_of = |i: usize| {
         let mut nodes: Vec<usize> =
             (c * i..c * (i + 1)).flat_map(|row| product.row(row).0).map(|dof| dof / c).collect();
@@ -14,15 +14,15 @@ pub(super) fn cliques(joint: &Joint) -> Vec<Vec<usize>> {
         nodes.dedup();
         nodes
     };
-    (0..joint.coupling.coefficients()).map(nodes_of).collect()
+    (0..interface.coupling.coefficients()).map(nodes_of).collect()
 }
 
 /// Adds the stiffness for symmetric law stiffnesses D, components² values per law point.
-pub fn add_stiffness(joint: &Joint, pattern: &Pattern, stiffness: &[f64], k: &mut Symmetric) {
-    let c = joint.coupling.components;
-    let product = multiplied(joint, stiffness);
-    for row in 0..joint.jump.rows() {
-        let (left, left_values) = joint.jump.row(row);
+pub fn add_stiffness(interface: &InterfaceOperator, pattern: &Pattern, stiffness: &[f64], k: &mut Symmetric) {
+    let c = interface.coupling.components;
+    let product = multiplied(interface, stiffness);
+    for row in 0..interface.jump.rows() {
+        let (left, left_values) = interface.jump.row(row);
         let (right, right_values) = product.row(row);
         for (&j, right) in right.iter().zip(right_values) {
             let from = left.partition_point(|&i| i < j);
@@ -35,8 +35,8 @@ pub fn add_stiffness(joint: &Joint, pattern: &Pattern, stiffness: &[f64], k: &mu
 }
 
 /// T G.
-fn multiplied(joint: &Joint, stiffness: &[f64]) -> Csr {
-    let mut tangent = InterfaceTangent::new(joint);
-    tangent.fill(joint, stiffness);
-    tangent.matrix.product(&joint.jump)
+fn multiplied(interface: &InterfaceOperator, stiffness: &[f64]) -> Csr {
+    let mut tangent = InterfaceTangent::new(interface);
+    tangent.fill(interface, stiffness);
+    tangent.matrix.product(&interface.jump)
 }

@@ -1,6 +1,6 @@
-//! The tangent of a joint on its jump coefficients, T = h Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p: pattern once, values often.
+//! The tangent of an interface on its jump coefficients, T = h Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p: pattern once, values often.
 
-use super::Joint;
+use super::InterfaceOperator;
 use crate::sparse::Csr;
 
 /// T with its places.
@@ -13,9 +13,9 @@ pub struct InterfaceTangent {
 }
 
 impl InterfaceTangent {
-    /// The pattern of a joint, values zero.
-    pub fn new(joint: &Joint) -> InterfaceTangent {
-        let c = joint.coupling.components;
+    /// The pattern of an interface, values zero.
+    pub fn new(interface: &InterfaceOperator) -> InterfaceTangent {
+        let c = interface.coupling.components;
         let mut entries = Vec::new();
         let visit = |point: &crate::coupling::LawPoint, entry: &mut dyn FnMut(usize, usize, bool)| {
             for (i, ni) in point.interpolation {
@@ -28,17 +28,17 @@ impl InterfaceTangent {
                 }
             }
         };
-        for point in &joint.coupling.points {
+        for point in &interface.coupling.points {
             visit(point, &mut |row, column, there| {
                 if there {
                     entries.push((row, column, 0.0));
                 }
             });
         }
-        let size = c * joint.coupling.coefficients();
+        let size = c * interface.coupling.coefficients();
         let matrix = Csr::from_triplets(size, size, &entries);
         let mut places = Vec::new();
-        for point in &joint.coupling.points {
+        for point in &interface.coupling.points {
             visit(point, &mut |row, column, there| {
                 let place = there.then(|| matrix.row(row).0.partition_point(|&k| k < column));
                 places.push(place.map(|k| (matrix.offsets[row] + k) as u32));
@@ -48,15 +48,15 @@ impl InterfaceTangent {
     }
 
     /// T for law stiffnesses D, components² values per law point, row by row.
-    pub fn fill(&mut self, joint: &Joint, stiffness: &[f64]) {
-        let c = joint.coupling.components;
+    pub fn fill(&mut self, interface: &InterfaceOperator, stiffness: &[f64]) {
+        let c = interface.coupling.components;
         self.matrix.values.fill(0.0);
         let mut places = self.places.iter();
-        for (point, d) in joint.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
-            let r = joint.rotation(point);
+        for (point, d) in interface.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
+            let r = interface.rotation(point);
             for (_, ni) in point.interpolation {
                 for (_, nj) in point.interpolation {
-                    let w = joint.thickness() * point.weight * ni * nj;
+                    let w = interface.thickness() * point.weight * ni * nj;
                     for a in 0..c {
                         for b in 0..c {
                             if let Some(Some(at)) = places.next() {

@@ -1,4 +1,4 @@
-//! The tables of `midplane check`: bodies, joints, what is held.
+//! The tables of `midplane check`: bodies, interfaces, what is held.
 
 use super::show::Show;
 use crate::problem::{Survey, unused_groups};
@@ -9,18 +9,21 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
     show.finish();
     let problem = &prepared.problem;
     let model = &problem.model;
-    let names =
-        model.bodies.iter().map(|body| &body.name).chain(model.joints.iter().map(|joint| &joint.name));
+    let names = model
+        .subdomains
+        .iter()
+        .map(|subdomain| &subdomain.name)
+        .chain(model.interfaces.iter().map(|interface| &interface.name));
     let width = names.map(|name| name.chars().count()).max().unwrap_or(0).max(12);
     show.line(&format!("{:<width$} {:>9} {:>9}  shapes", "subdomain", "nodes", "cells"));
-    for body in &model.bodies {
-        let mut shapes: Vec<&str> = body.mesh.cells.shapes.iter().map(|shape| shape.label()).collect();
+    for subdomain in &model.subdomains {
+        let mut shapes: Vec<&str> = subdomain.mesh.cells.shapes.iter().map(|shape| shape.label()).collect();
         shapes.sort_unstable();
         shapes.dedup();
-        let (nodes, cells) = (body.mesh.points.len(), body.mesh.cells.len());
-        show.line(&format!("{:<width$} {nodes:>9} {cells:>9}  {}", body.name, shapes.join(" ")));
+        let (nodes, cells) = (subdomain.mesh.points.len(), subdomain.mesh.cells.len());
+        show.line(&format!("{:<width$} {nodes:>9} {cells:>9}  {}", subdomain.name, shapes.join(" ")));
     }
-    if !model.joints.is_empty() {
+    if !model.interfaces.is_empty() {
         show.line(&format!(
             "{:<width$} {:>11} {:>6} {:>8} {:>6} {:>11} {:>9} {:>9} {:>7} {:>9}",
             "interface",
@@ -35,12 +38,12 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             "K_N h/E"
         ));
     }
-    for (joint, (law, _)) in model.joints.iter().zip(&problem.laws) {
-        let survey = Survey::of(model, joint, law);
+    for (interface, (law, _)) in model.interfaces.iter().zip(&problem.laws) {
+        let survey = Survey::of(model, interface, law);
         let [a, b] = survey.edges;
         show.line(&format!(
             "{:<width$} {:>11} {:>6.2} {:>8} {:>6} {:>11.6} {:>9.1e} {:>9.1e} {:>6.1}° {:>9.2e}",
-            joint.name,
+            interface.name,
             format!("{a}:{b}"),
             survey.ratio(),
             survey.segments,
@@ -52,8 +55,11 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             survey.stiffness_number
         ));
     }
-    let held = problem.stages.first().map_or(0, |stage| stage.held.iter().filter(|&&held| held).count());
-    show.line(&format!("{} dofs, {held} held in the first step", model.dofs()));
+    let constrained = problem
+        .steps
+        .first()
+        .map_or(0, |step| step.constrained.iter().filter(|&&constrained| constrained).count());
+    show.line(&format!("{} dofs, {constrained} held in the first step", model.dofs()));
     for warning in unused_groups(&prepared.scene, model) {
         show.warning(&warning);
     }

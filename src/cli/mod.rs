@@ -62,11 +62,11 @@ fn act(arguments: Arguments) -> Result<()> {
             Ok(())
         }
         Command::Law { scene, interface, path, substeps, tolerance, settings } => {
-            let stepping = match (substeps, tolerance) {
+            let integration = match (substeps, tolerance) {
                 (Some(n), _) => Some(Integration::BackwardEuler(n.get())),
                 (None, tolerance) => tolerance.map(Integration::Tolerance),
             };
-            let (rows, ended) = run::point::drive(&scene, &settings, &interface, &path, stepping)?;
+            let (rows, ended) = run::point::drive(&scene, &settings, &interface, &path, integration)?;
             let mut csv = Vec::new();
             path::write_csv(&rows, &mut csv).map_err(Error::io("write", "standard output"))?;
             print(&String::from_utf8_lossy(&csv))?;
@@ -117,7 +117,7 @@ fn set_threads(threads: Option<std::num::NonZeroUsize>) -> Result<()> {
         Error::Program {
             program: "midplane".into(),
             what: format!("cannot start {threads} threads: {error}"),
-            cure: "ask for fewer with --threads".into(),
+            help: "ask for fewer with --threads".into(),
         }
     })
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 use crate::error::Warning;
 use crate::history::{Operations, StageNow, Totals, memory::gigabytes};
 use crate::output::HistoryRow;
@@ -55,8 +55,8 @@ impl Show {
     }
 
     /// A warning is worth its lines also when everything else is quiet.
-    pub(super) fn warning(&self, Warning { code, what, cure }: &Warning) {
-        let text = format!("warning: {code} {what}\n         cure: {cure}");
+    pub(super) fn warning(&self, Warning { code, what, help }: &Warning) {
+        let text = format!("warning: {code} {what}\n         help: {help}");
         match &self.bar {
             Some(bar) => bar.suspend(|| eprintln!("{text}")),
             None => eprintln!("{text}"),
@@ -73,7 +73,7 @@ impl Show {
                 let how = if reused { "reused" } else { "meshed" };
                 self.line(&format!("{how:<8} {name:<12} {}", path.display()));
             }
-            Event::Joint(joint) => self.line(&describe(joint)),
+            Event::Interface(interface) => self.line(&describe(interface)),
             Event::Warning(warning) => self.warning(warning),
             Event::Reused(what) => self.line(&format!("reused   {what}")),
             Event::Increment { row, number, of, total, totals, .. } => {
@@ -170,12 +170,12 @@ fn increment(row: &HistoryRow, number: usize, of: usize, marks: &str) -> String 
     )
 }
 
-fn describe(joint: &Joint) -> String {
-    let coupling = &joint.coupling;
+fn describe(interface: &InterfaceOperator) -> String {
+    let coupling = &interface.coupling;
     let [a, b] = [0, 1].map(|side| coupling.edges(side));
     format!(
         "joined   {:<12} {a}:{b} edges, {} segments, {} law points, length {:.6}",
-        joint.name,
+        interface.name,
         coupling.midplane.segments.len(),
         coupling.points.len(),
         coupling.midplane.length

@@ -119,7 +119,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pressure_pushes_against_the_body_and_sums_to_pressure_times_length() {
+    fn a_pressure_pushes_against_the_subdomain_and_sums_to_pressure_times_length() {
         // the body lies above an edge that runs along +x: a pressure p pushes up
         let x = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]];
         for quadratic in [false, true] {

@@ -40,10 +40,10 @@ impl Chain {
     pub(super) fn order(
         interface: &str,
         curves: &[Side],
-        body: Orientation,
+        subdomain: Orientation,
         origin: [f64; 2],
     ) -> Result<Chain> {
-        let links = link::sorted(interface, curves, body, origin)?;
+        let links = link::sorted(interface, curves, subdomain, origin)?;
         // open runs from their first edges, then what is left: closed ones
         let next: Vec<usize> = (0..links.len()).map(|i| link::next(&links, i)).collect();
         let mut follows = vec![false; links.len()];
@@ -179,9 +179,9 @@ mod tests {
 
     const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]];
 
-    fn order(points: &[[f64; 2]], edges: &[Edge], body: Orientation) -> Result<Chain> {
+    fn order(points: &[[f64; 2]], edges: &[Edge], subdomain: Orientation) -> Result<Chain> {
         let side = Side { name: "lower.top", points, edges, corners: &[], first: 0 };
-        Chain::order("joint", &[side], body, [0.0; 2])
+        Chain::order("joint", &[side], subdomain, [0.0; 2])
     }
 
     fn edge(start: usize, end: usize) -> Edge {
@@ -206,8 +206,8 @@ mod tests {
         let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.5, 0.0], [1.5, 0.0]];
         let quadratic = |nodes: [usize; 3]| Edge { nodes, cell: 0, boundary: true };
         let edges = [quadratic([1, 2, 4]), quadratic([0, 1, 3])];
-        for body in [Orientation::Left, Orientation::Right] {
-            let chain = order(&points, &edges, body).unwrap();
+        for subdomain in [Orientation::Left, Orientation::Right] {
+            let chain = order(&points, &edges, subdomain).unwrap();
             for e in 0..2 {
                 let x: Vec<f64> = chain.edge(e).map(|i| chain.points[i][0]).collect();
                 assert_eq!(x[2], 0.5 * (x[0] + x[1]));

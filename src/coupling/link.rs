@@ -57,21 +57,21 @@ pub(super) enum Orientation {
 pub(super) fn sorted(
     interface: &str,
     curves: &[Side],
-    body: Orientation,
+    subdomain: Orientation,
     origin: [f64; 2],
 ) -> Result<Vec<Link>> {
     let names = names(curves);
-    let refuse =
-        |what: String, cure: &str| Error::Interface { name: interface.into(), what, cure: cure.into() };
+    let error_at =
+        |what: String, help: &str| Error::Interface { name: interface.into(), what, help: help.into() };
     let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
     for curve in curves {
         for edge in curve.edges {
             let [x, y] = curve.points[edge.nodes[0]];
             if !edge.boundary {
                 let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
-                return Err(refuse(what, "a side lies on the boundary of its subdomain"));
+                return Err(error_at(what, "a side lies on the boundary of its subdomain"));
             }
-            links.push(Link::new(curve, edge, body, origin));
+            links.push(Link::new(curve, edge, subdomain, origin));
         }
     }
     links.sort_unstable_by_key(|link| (link.start, link.end));
@@ -82,7 +82,7 @@ pub(super) fn sorted(
     let merge = ends.windows(2).find(|pair| pair[0].0 == pair[1].0).map(|pair| pair[0].1);
     if let Some([x, y]) = branch.or(merge) {
         let what = format!("{names} branches at ({}, {})", x + origin[0], y + origin[1]);
-        return Err(refuse(what, "no more than two edges of a side meet at a node"));
+        return Err(error_at(what, "no more than two edges of a side meet at a node"));
     }
     Ok(links)
 }
@@ -105,10 +105,10 @@ pub(super) fn names(curves: &[Side]) -> String {
 }
 
 impl Link {
-    fn new(curve: &Side, edge: &Edge, body: Orientation, origin: [f64; 2]) -> Link {
+    fn new(curve: &Side, edge: &Edge, subdomain: Orientation, origin: [f64; 2]) -> Link {
         let [mut start, mut end, mid] = edge.nodes;
         let mid = (mid != end).then_some(mid);
-        if body == Orientation::Right {
+        if subdomain == Orientation::Right {
             (start, end) = (end, start);
         }
         let corner = match curve.corners {

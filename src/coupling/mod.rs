@@ -18,6 +18,7 @@
 
 mod angle;
 mod chain;
+mod faults;
 mod grid;
 mod jump;
 mod link;
@@ -26,7 +27,6 @@ mod pair;
 mod parts;
 mod pointwise;
 mod projected;
-mod refusal;
 mod seam;
 mod segment;
 mod vector;
@@ -82,7 +82,7 @@ pub struct Scheme {
     pub gap: Gap,
 }
 
-/// The joint as the solver sees it, with the geometry it came from.
+/// The interface as the solver sees it, with the geometry it came from.
 #[derive(Debug, Clone)]
 pub struct Coupling {
     /// Displacement components per node.

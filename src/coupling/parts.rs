@@ -9,7 +9,7 @@ use super::link::Orientation;
 use super::pair::{Face, starts, walk};
 use super::segment::{CommonStretch, FACING, LinePoint, Piece, Segment};
 use super::vector::*;
-use super::{Chain, Gap, Midplane, Side, refusal, seam};
+use super::{Chain, Gap, Midplane, Side, faults, seam};
 use crate::error::Result;
 
 /// Faces with a gap may lie this far apart. Of the shorter line.
@@ -28,8 +28,8 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
     let sides = [side_a, side_b];
     let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
     let origin = edge.unwrap_or_default();
-    let order = |side: &[Side], body: Orientation| {
-        let chain = Chain::order(name, side, body, origin)?;
+    let order = |side: &[Side], subdomain: Orientation| {
+        let chain = Chain::order(name, side, subdomain, origin)?;
         let angles = Angles::new(&chain);
         Ok((chain, angles))
     };
@@ -54,20 +54,20 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
         parts(&mut c, gap).into_iter().partition(|part| part.touches);
     if near.is_empty() {
         return Err(match far.iter().max_by(|p, q| p.length.total_cmp(&q.length)) {
-            Some(part) => refusal::apart(name, sides, part),
-            None if bodies_on_one_side(&c) => refusal::same_side(name, sides),
-            None => refusal::nothing_common(name, sides, &c),
+            Some(part) => faults::apart(name, sides, part),
+            None if bodies_on_one_side(&c) => faults::same_side(name, sides),
+            None => faults::nothing_common(name, sides, &c),
         });
     }
     if let Some(part) = near.iter().find(|part| part.worst.0 > 0.0 || part.worst.0.is_nan()) {
-        return Err(refusal::apart(name, sides, part));
+        return Err(faults::apart(name, sides, part));
     }
     assemble(&mut c, near);
     seam::turn_closed(&mut c);
     for side in 0..2 {
         let share = cover(&c, side);
         if let Some(place) = share.iter().position(|share| *share > 1.0 + FACING) {
-            return Err(refusal::twice(name, sides, &c, side, place));
+            return Err(faults::twice(name, sides, &c, side, place));
         }
         let lengths = |e: usize| if side == 0 { c.a.chord(e) } else { c.b.chord(e) };
         let whole: f64 = (0..share.len()).map(lengths).sum();

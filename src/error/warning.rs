@@ -15,7 +15,7 @@ pub enum Code {
     Apart,
     /// Coordinates too far from the origin for the edges.
     FarAway,
-    /// Bad cells beside a joint.
+    /// Bad cells beside an interface.
     BadCells,
     /// Shear stiffness too low for the fracture energies.
     LeapInShear,
@@ -87,7 +87,7 @@ impl fmt::Display for Code {
     }
 }
 
-/// One thing to know. As text: `W04 interface joint: why; cure`.
+/// One thing to know. As text: `W04 interface interface: why; help`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
     /// Its code.
@@ -95,16 +95,16 @@ pub struct Warning {
     /// Where and why, one line.
     pub what: String,
     /// What to do about it, one line.
-    pub cure: String,
+    pub help: String,
 }
 
 impl Warning {
     /// A warning from its parts.
-    pub fn new(code: Code, what: impl Into<String>, cure: impl Into<String>) -> Warning {
-        Warning { code, what: what.into(), cure: cure.into() }
+    pub fn new(code: Code, what: impl Into<String>, help: impl Into<String>) -> Warning {
+        Warning { code, what: what.into(), help: help.into() }
     }
 
-    /// The same, told of something: `interface joint: …`.
+    /// The same, told of something: `interface interface: …`.
     pub fn of(self, place: &str) -> Warning {
         Warning { what: format!("{place}: {}", self.what), ..self }
     }
@@ -112,6 +112,6 @@ impl Warning {
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}; {}", self.code, self.what, self.cure)
+        write!(f, "{} {}; {}", self.code, self.what, self.help)
     }
 }

@@ -27,22 +27,28 @@ pub(super) fn arc(
         let (ahead, last) = if first { (0.0, ratio * part) } else { (ratio, at.change) };
         match analysis.engine.follow(
             &analysis.state,
-            at.level,
+            at.load_factor,
             &PathSearch { ramp, amount: None, ahead, last },
         ) {
-            Ok((found, level)) if level < 1.0 => {
+            Ok((found, load_factor)) if load_factor < 1.0 => {
                 let spent = dissipation(analysis.problem, &found);
-                // how far this goes, in increments of the scene; what is sound may go from nothing to anything
-                let load = (level - at.level).abs() / part;
+                // how far this goes, in increments of the scene; what is intact may go from nothing to anything
+                let load = (load_factor - at.load_factor).abs() / part;
                 let tractions =
                     if spent > 0.0 { far(analysis, at, &found) / (TRACTIONS * part) } else { 0.0 };
                 let far = load.max(tractions);
-                let Judged { error, .. } =
-                    judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+                let Judged { error, .. } = judge(
+                    analysis,
+                    start,
+                    [at.most.sqrt(), 0.0, 0.0],
+                    [at.load_factor, load_factor],
+                    &found,
+                    true,
+                )?;
                 if far <= WIDE && error <= 1.0 {
                     let iterations = found.iterations;
                     let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
-                    take(analysis, start, found, at, level, spent)?;
+                    take(analysis, start, found, at, load_factor, spent)?;
                     at.ratio = easier.min(1.0 / far).min((1.0 / error).sqrt());
                     return Ok(Outcome::Converged(iterations));
                 }

@@ -13,7 +13,7 @@ pub struct Resultant {
 
 /// The resultant of loads and reactions.
 pub fn resultant(model: &Model, force: &[f64], reactions: &[f64]) -> Resultant {
-    let points = || model.bodies.iter().flat_map(|body| &body.mesh.points);
+    let points = || model.subdomains.iter().flat_map(|subdomain| &subdomain.mesh.points);
     let bound =
         |d: usize, of: fn(f64, f64) -> f64, from: f64| points().fold(from, |bound, x| of(bound, x[d]));
     let low = [0, 1].map(|d| bound(d, f64::min, f64::INFINITY));

@@ -24,11 +24,11 @@ pub struct Beyond {
 
 /// Notes the jumps of an increment that exceed an edge of either side.
 pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told: &mut Vec<Beyond>) {
-    for (k, joint) in problem.model.joints.iter().enumerate() {
-        let midplane = &joint.coupling.midplane;
+    for (k, interface) in problem.model.interfaces.iter().enumerate() {
+        let midplane = &interface.coupling.midplane;
         let jumps = state.snapshot.jumps[k].iter().zip(&state.snapshot.tractions[k]);
         let mut segment = 0;
-        for (point, (jump, traction)) in joint.coupling.points.iter().zip(jumps) {
+        for (point, (jump, traction)) in interface.coupling.points.iter().zip(jumps) {
             while segment + 1 < midplane.segments.len() && midplane.segments[segment].end < point.s {
                 segment += 1;
             }
@@ -41,14 +41,14 @@ pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told
             for (opens, jump) in [(true, opening), (false, slip)].into_iter().filter(|(_, jump)| *jump > edge)
             {
                 let new = Beyond {
-                    interface: joint.name.clone(),
+                    interface: interface.name.clone(),
                     opens,
                     increment,
                     jump,
                     edges: jump / edge,
                     at: point.position,
                 };
-                match told.iter_mut().find(|one| one.opens == opens && one.interface == joint.name) {
+                match told.iter_mut().find(|one| one.opens == opens && one.interface == interface.name) {
                     Some(one) if new.edges > one.edges => *one = Beyond { increment: one.increment, ..new },
                     Some(_) => {}
                     None => told.push(new),

@@ -4,11 +4,11 @@ use super::loading::Ledger;
 use crate::law;
 use crate::solver::NodalSolution;
 
-/// A joint whose jumps are unknowns, after an increment that converged.
+/// An interface whose jumps are unknowns, after an increment that converged.
 #[derive(Debug, Clone)]
 pub(in crate::history) struct InterfaceResponse {
     /// Its number.
-    pub(in crate::history) joint: usize,
+    pub(in crate::history) interface: usize,
     /// Jump (n, t) at the law points.
     pub(in crate::history) jumps: Vec<[f64; 2]>,
     /// What the laws answered at its law points.
@@ -36,10 +36,10 @@ pub(in crate::history) struct Converged {
     /// What stands for them otherwise.
     pub(in crate::history) ledger: Option<Ledger>,
     /// Joints whose jumps are unknowns.
-    pub(in crate::history) joints: Vec<InterfaceResponse>,
+    pub(in crate::history) interfaces: Vec<InterfaceResponse>,
     /// Viscous work [force × length].
     pub(in crate::history) released: f64,
-    /// Bend of the tractions of joints that dilate in a viscous step: their mean less Simpson's, √(Σ w |Δt|²).
+    /// Bend of the tractions of interfaces that dilate in a viscous step: their mean less Simpson's, √(Σ w |Δt|²).
     pub(in crate::history) bend: f64,
     pub(in crate::history) iterations: usize,
     /// Iterations of a search before that found nothing.

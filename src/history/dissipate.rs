@@ -21,37 +21,45 @@ const RISING: usize = 2;
 const PATIENCE: usize = 16;
 const FAR_OFF: f64 = 100.0;
 
-/// An increment of the load level if nothing dissipates in it; else a first step on the path.
-pub(super) fn sound(
+/// An increment of the load factor if nothing dissipates in it; else a first step on the path.
+pub(super) fn intact(
     analysis: &mut Analysis,
     start: &Start,
     ramp: &Ramp,
     at: &mut PathProgress,
     part: f64,
 ) -> Result<Outcome<usize>> {
-    let reached = if at.level + 1.001 * part >= 1.0 { 1.0 } else { at.level + part };
+    let reached = if at.load_factor + 1.001 * part >= 1.0 { 1.0 } else { at.load_factor + part };
     if let Outcome::Converged((iterations, _)) = by_load(analysis, start, at, reached, 0.0)? {
         return Ok(Outcome::Converged(iterations));
     }
     // up to where something begins to dissipate: what follows is compared with the state there
-    let (begin, mut width, mut all) = (at.level, part, 0);
+    let (begin, mut width, mut all) = (at.load_factor, part, 0);
     while width > LEAST * part {
         width *= 0.5;
-        if let Outcome::Converged((iterations, _)) = by_load(analysis, start, at, at.level + width, 0.0)? {
+        if let Outcome::Converged((iterations, _)) =
+            by_load(analysis, start, at, at.load_factor + width, 0.0)?
+        {
             all += iterations;
         }
     }
-    if at.level - begin > 2.0 * LEAST * part {
+    if at.load_factor - begin > 2.0 * LEAST * part {
         return Ok(Outcome::Converged(all));
     }
     let mut amount = FIRST * analysis.state.stored;
     let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let path = PathSearch { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
-        match analysis.engine.follow(&analysis.state, at.level, &path) {
-            Ok((found, level)) if far(analysis, at, &found) <= WIDE * TRACTIONS * part => {
-                let judged =
-                    judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+        match analysis.engine.follow(&analysis.state, at.load_factor, &path) {
+            Ok((found, load_factor)) if far(analysis, at, &found) <= WIDE * TRACTIONS * part => {
+                let judged = judge(
+                    analysis,
+                    start,
+                    [at.most.sqrt(), 0.0, 0.0],
+                    [at.load_factor, load_factor],
+                    &found,
+                    true,
+                )?;
                 at.tried += judged.solved;
                 if judged.error > 1.0 {
                     at.tried += found.iterations;
@@ -59,7 +67,7 @@ pub(super) fn sound(
                     amount *= SMALLER;
                     continue;
                 }
-                return take(analysis, start, found, at, level, amount).map(Outcome::Converged);
+                return take(analysis, start, found, at, load_factor, amount).map(Outcome::Converged);
             }
             Ok(_) => {}
             Err(Failure::Unconverged(failed)) => {
@@ -88,8 +96,8 @@ pub(super) fn along(
         at.wait = at.patience;
         for _ in 0..RISING {
             let width = at.width.min(part);
-            let reached = if at.level + 1.001 * width >= 1.0 { 1.0 } else { at.level + width };
-            let expected = at.spent * (reached - at.level) / at.change;
+            let reached = if at.load_factor + 1.001 * width >= 1.0 { 1.0 } else { at.load_factor + width };
+            let expected = at.spent * (reached - at.load_factor) / at.change;
             match by_load(analysis, start, at, reached, ROWS * expected)? {
                 Outcome::Converged((iterations, error)) => {
                     at.width = (width * (0.8 / error.sqrt()).clamp(1.0, 4.0)).min(part);
@@ -105,17 +113,23 @@ pub(super) fn along(
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let path = PathSearch { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
-        match analysis.engine.follow(&analysis.state, at.level, &path) {
-            Ok((found, level)) if level < 1.0 => {
+        match analysis.engine.follow(&analysis.state, at.load_factor, &path) {
+            Ok((found, load_factor)) if load_factor < 1.0 => {
                 // how far this goes, in increments of the scene
-                let load = (level - at.level).abs() / part;
+                let load = (load_factor - at.load_factor).abs() / part;
                 let far = load.max(far(analysis, at, &found) / (TRACTIONS * part));
-                let Judged { error, .. } =
-                    judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, true)?;
+                let Judged { error, .. } = judge(
+                    analysis,
+                    start,
+                    [at.most.sqrt(), 0.0, 0.0],
+                    [at.load_factor, load_factor],
+                    &found,
+                    true,
+                )?;
                 if far <= WIDE && error <= 1.0 {
                     let iterations = found.iterations;
                     let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
-                    take(analysis, start, found, at, level, amount)?;
+                    take(analysis, start, found, at, load_factor, amount)?;
                     at.amount = amount * easier.min(1.0 / far).min((1.0 / error).sqrt());
                     return Ok(Outcome::Converged(iterations));
                 }
@@ -125,7 +139,7 @@ pub(super) fn along(
                     amount *= (0.8 / error.sqrt()).min(0.5) / SMALLER;
                 }
             }
-            Ok((_, level)) if level >= 1.0 => {
+            Ok((_, load_factor)) if load_factor >= 1.0 => {
                 if let Outcome::Converged((iterations, _)) = by_load(analysis, start, at, 1.0, f64::INFINITY)?
                 {
                     return Ok(Outcome::Converged(iterations));

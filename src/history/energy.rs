@@ -2,7 +2,7 @@
 
 use super::converged::{Converged, InterfaceResponse};
 use super::loading::{LoadForces, StepLoad};
-use crate::assembly::{Joint, Model};
+use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::LawPoint;
 use crate::law::{self, Law};
 use crate::output::Snapshot;
@@ -12,48 +12,48 @@ use crate::solver::NodalSolution;
 /// Energy that an increment dissipates [force × length].
 pub(super) fn dissipation(problem: &Problem, found: &Converged) -> f64 {
     let of = |answer: &InterfaceResponse| {
-        let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+        let points = problem.model.interfaces[answer.interface].coupling.points.iter().zip(&answer.memory);
         points.map(|(point, memory)| point.weight * memory.dissipation).sum::<f64>()
     };
-    problem.model.thickness * found.joints.iter().map(of).sum::<f64>()
+    problem.model.thickness * found.interfaces.iter().map(of).sum::<f64>()
 }
 
 /// Mean square of their tractions times length [stress² × length].
 pub(super) fn carried(problem: &Problem, snapshot: &Snapshot) -> f64 {
-    let joints = problem.model.joints.iter().zip(&snapshot.states);
-    let of = |(joint, states): (&Joint, &Vec<law::State>)| {
-        let points = joint.coupling.points.iter().zip(states);
+    let interfaces = problem.model.interfaces.iter().zip(&snapshot.states);
+    let of = |(interface, states): (&InterfaceOperator, &Vec<law::State>)| {
+        let points = interface.coupling.points.iter().zip(states);
         points.map(|(point, state)| point.weight * state.traction.norm_squared()).sum::<f64>()
     };
-    joints.map(of).sum()
+    interfaces.map(of).sum()
 }
 
 /// Mean square of the tractions found, times length [stress² × length].
 pub(super) fn carried_after(problem: &Problem, found: &Converged) -> f64 {
     let of = |answer: &InterfaceResponse| {
-        let points = problem.model.joints[answer.joint].coupling.points.iter().zip(&answer.memory);
+        let points = problem.model.interfaces[answer.interface].coupling.points.iter().zip(&answer.memory);
         points.map(|(point, memory)| point.weight * memory.state.traction.norm_squared()).sum::<f64>()
     };
-    found.joints.iter().map(of).sum()
+    found.interfaces.iter().map(of).sum()
 }
 
 /// Change of the tractions that an increment brings, measured alike.
 pub(super) fn change(problem: &Problem, snapshot: &Snapshot, found: &Converged) -> f64 {
     let of = |answer: &InterfaceResponse| {
-        let points = problem.model.joints[answer.joint].coupling.points.iter();
-        let states = snapshot.states[answer.joint].iter().zip(&answer.memory);
+        let points = problem.model.interfaces[answer.interface].coupling.points.iter();
+        let states = snapshot.states[answer.interface].iter().zip(&answer.memory);
         let change = |old: &law::State, new: &law::State| (new.traction - old.traction).norm_squared();
         points.zip(states).map(|(p, (old, new))| p.weight * change(old, &new.state)).sum::<f64>()
     };
-    found.joints.iter().map(of).sum()
+    found.interfaces.iter().map(of).sum()
 }
 
 /// √(Σ w |Δr|²) of what was found, and that of open points that close.
 pub(super) fn moved(problem: &Problem, snapshot: &Snapshot, found: &Converged) -> [f64; 2] {
     let mut squares = [0.0; 2];
-    for answer in &found.joints {
-        let points = problem.model.joints[answer.joint].coupling.points.iter();
-        let states = snapshot.states[answer.joint].iter().zip(&answer.memory);
+    for answer in &found.interfaces {
+        let points = problem.model.interfaces[answer.interface].coupling.points.iter();
+        let states = snapshot.states[answer.interface].iter().zip(&answer.memory);
         for (point, (old, new)) in points.zip(states) {
             let moved = new.state.jump - old.jump;
             squares[0] += point.weight * moved.norm_squared();
@@ -81,11 +81,11 @@ pub(super) fn work_to(
     (0..solution.u.len()).map(at).sum()
 }
 
-/// Σ q · a of the joints that are not elastic.
+/// Σ q · a of the interfaces that are not elastic.
 pub(super) fn across(model: &Model, snapshot: &Snapshot) -> f64 {
-    let joints = model.joints.iter().zip(&snapshot.jumps).zip(&snapshot.states);
-    let points =
-        joints.flat_map(|((joint, jumps), states)| joint.coupling.points.iter().zip(jumps).zip(states));
+    let interfaces = model.interfaces.iter().zip(&snapshot.jumps).zip(&snapshot.states);
+    let points = interfaces
+        .flat_map(|((interface, jumps), states)| interface.coupling.points.iter().zip(jumps).zip(states));
     let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
         model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
     };

@@ -5,40 +5,40 @@ use crate::problem::{BoundStep, Problem};
 use crate::solver::Unconverged;
 
 /// A solution that is none: rounding or overflow has eaten it.
-pub(super) fn unusable(stage: &BoundStep, increment: usize, kept: usize, error: f64) -> Error {
+pub(super) fn unusable(step: &BoundStep, increment: usize, kept: usize, error: f64) -> Error {
     let reason = if error.is_finite() {
         format!("rounding leaves a backward error of {error:.1e}")
     } else {
         "numbers overflowed: loads or stiffnesses are out of range".into()
     };
-    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
+    Error::NoEquilibrium { step: step.name.clone(), increment, reason, kept }
 }
 
 /// A matrix that is not positive definite.
-pub(super) fn singular(stage: &BoundStep, kept: usize) -> Error {
+pub(super) fn singular(step: &BoundStep, kept: usize) -> Error {
     let reason = "the stiffness is not positive definite in floating point".into();
-    Error::NoEquilibrium { step: stage.name.clone(), increment: 1, reason, kept }
+    Error::NoEquilibrium { step: step.name.clone(), increment: 1, reason, kept }
 }
 
 /// The smallest increment has none: where it was lost, and the law points that are farthest from it.
 pub(super) fn no_equilibrium(
     problem: &Problem,
-    stage: &BoundStep,
+    step: &BoundStep,
     increment: usize,
     kept: usize,
-    level: f64,
+    load_factor: f64,
     why: &Unconverged,
 ) -> Error {
     let worst: Vec<String> = why
         .worst
         .iter()
-        .map(|&(joint, point)| {
-            let joint = &problem.model.joints[joint];
-            let point = &joint.coupling.points[point];
-            format!("{} at ({:.6}, {:.6})", joint.name, point.position[0], point.position[1])
+        .map(|&(interface, point)| {
+            let interface = &problem.model.interfaces[interface];
+            let point = &interface.coupling.points[point];
+            format!("{} at ({:.6}, {:.6})", interface.name, point.position[0], point.position[1])
         })
         .collect();
     let reason =
-        format!("{} beyond load factor {level:.6}; worst law points: {}", why.reason, worst.join(", "));
-    Error::NoEquilibrium { step: stage.name.clone(), increment, reason, kept }
+        format!("{} beyond load factor {load_factor:.6}; worst law points: {}", why.reason, worst.join(", "));
+    Error::NoEquilibrium { step: step.name.clone(), increment, reason, kept }
 }

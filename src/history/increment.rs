@@ -6,14 +6,14 @@ use crate::problem::BoundStep;
 #[derive(Debug, Clone, Copy)]
 pub struct Increment<'a> {
     /// Number of the step, from 0.
-    pub step: usize,
+    pub step_number: usize,
     /// The step.
-    pub stage: &'a BoundStep,
+    pub step: &'a BoundStep,
     /// Number of the increment within its step, from 1; 0 is the unloaded state before the first.
     pub number: usize,
     /// Number of the increment over all steps.
     pub increment: usize,
-    /// Load level in the step, 0 to 1.
+    /// Load factor in the step, 0 to 1.
     pub load_factor: f64,
     /// Newton iterations since the increment before.
     pub iterations: usize,
@@ -25,8 +25,8 @@ pub struct Increment<'a> {
 
 impl<'a> Increment<'a> {
     /// Of a step, after so many increments over all steps.
-    pub(super) fn of(step: usize, stage: &'a BoundStep, increment: usize) -> Increment<'a> {
+    pub(super) fn of(step_number: usize, step: &'a BoundStep, increment: usize) -> Increment<'a> {
         let (number, load_factor, iterations) = (0, 0.0, 0);
-        Increment { step, stage, number, increment, load_factor, iterations, last: false, ended: false }
+        Increment { step_number, step, number, increment, load_factor, iterations, last: false, ended: false }
     }
 }

@@ -33,8 +33,8 @@ pub(super) fn judge(
         return Ok(Judged { error: 0.0, cracked: false, solved: 0, passed: 0.0, work: 0.0 });
     }
     let [middle, end] = [start.at(0.5 * (from + to))?, start.at(to)?];
-    let step = if follows { Some([start.at(0.0)?, start.at(1.0)?]) } else { None };
-    let way = Way { middle: &middle, step: step.as_ref() };
+    let ends = if follows { Some([start.at(0.0)?, start.at(1.0)?]) } else { None };
+    let way = Way { middle: &middle, ends: ends.as_ref() };
     let Some(estimate) = analysis.engine.estimate(&analysis.state, found, way) else {
         return Ok(Judged { error: 0.0, cracked: false, solved: 0, passed: 0.0, work: 0.0 });
     };

@@ -25,8 +25,8 @@ pub(super) struct LoadStep {
 
 impl LoadStep {
     /// Before the first increment; `thrifty` as `prepare` says.
-    pub(super) fn new(stage: &BoundStep, thrifty: bool) -> LoadStep {
-        LoadStep { number: 0, thrifty, at: StepProgress::new(1.0 / stage.increments as f64) }
+    pub(super) fn new(step: &BoundStep, thrifty: bool) -> LoadStep {
+        LoadStep { number: 0, thrifty, at: StepProgress::new(1.0 / step.increments as f64) }
     }
 }
 
@@ -34,17 +34,17 @@ impl LoadStep {
 /// a measure costs about as much as recovering one increment. A step that `follows` the path needs them.
 pub(super) fn prepare(
     analysis: &mut Analysis,
-    stage: &BoundStep,
+    step: &BoundStep,
     start: &Start,
     ramp: Option<&Ramp>,
     follows: bool,
 ) -> bool {
     let problem = analysis.problem;
-    let known = active(problem).len() == problem.model.joints.len() || analysis.engine.finds_all_jumps();
+    let known = active(problem).len() == problem.model.interfaces.len() || analysis.engine.finds_all_jumps();
     let unstored = problem.fields != Fields::Every && known && !follows;
     let measures: Vec<LinearMeasure> =
         ramp.filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
-    let thrifty = !measures.is_empty() && measures.len() < stage.increments;
+    let thrifty = !measures.is_empty() && measures.len() < step.increments;
     let measures = if thrifty { measures } else { Vec::new() };
     analysis.clock.begin("prepare");
     analysis.engine.prepare(ramp, &measures);
@@ -54,23 +54,23 @@ pub(super) fn prepare(
 /// The next increment.
 pub(super) fn next(
     analysis: &mut Analysis,
-    stage: &BoundStep,
+    step: &BoundStep,
     start: &Start,
     LoadStep { number, thrifty, at }: &mut LoadStep,
 ) -> Result<Reached> {
     *number += 1;
     let number = *number;
-    let goal = number as f64 / stage.increments as f64;
+    let goal = number as f64 / step.increments as f64;
     analysis.clock.begin("solve");
-    let before = at.level;
-    let complete = !*thrifty || number == stage.increments;
-    let part = 1.0 / stage.increments as f64;
-    let leg = LoadIncrement { start, stage, number, goal, part, complete };
+    let before = at.load_factor;
+    let complete = !*thrifty || number == step.increments;
+    let part = 1.0 / step.increments as f64;
+    let leg = LoadIncrement { start, step, number, goal, part, complete };
     let (iterations, lost) = match advance(analysis, &leg, at)? {
         Outcome::Converged(iterations) => (iterations, None),
         Outcome::Retry(why) => (why.iterations, Some(why)),
     };
-    let last = number == stage.increments && lost.is_none();
-    let moved = lost.is_none() || at.level > before;
-    Ok(Reached { number, load_factor: at.level, iterations, last, moved, lost })
+    let last = number == step.increments && lost.is_none();
+    let moved = lost.is_none() || at.load_factor > before;
+    Ok(Reached { number, load_factor: at.load_factor, iterations, last, moved, lost })
 }

@@ -8,16 +8,16 @@ use crate::error::Result;
 use crate::problem::{BoundProbe, BoundStep, Problem};
 use crate::solver::{LinearMeasure, Ramp};
 
-/// A load level of a step. Its forces are made when they are asked for: an increment without displacements needs none.
+/// A load factor of a step. Its forces are made when they are asked for: an increment without displacements needs none.
 #[derive(Debug, Clone)]
 pub(super) struct StepLoad<'s> {
-    /// Load level in the step, 0 to 1.
-    pub(super) level: f64,
+    /// Load factor in the step, 0 to 1.
+    pub(super) load_factor: f64,
     start: &'s Start<'s>,
     forces: OnceCell<LoadForces>,
 }
 
-/// Loads and prescribed displacements at one load level.
+/// Loads and prescribed displacements at one load factor.
 #[derive(Debug, Clone)]
 pub(super) struct LoadForces {
     /// External forces [force].
@@ -33,17 +33,17 @@ pub(super) struct LoadForces {
 impl StepLoad<'_> {
     /// Loads and prescribed displacements.
     pub(super) fn forces(&self) -> &LoadForces {
-        self.forces.get_or_init(|| self.start.ramped(self.level))
+        self.forces.get_or_init(|| self.start.ramped(self.load_factor))
     }
 
     /// The same.
     pub(super) fn into_forces(self) -> LoadForces {
-        self.forces.into_inner().unwrap_or_else(|| self.start.ramped(self.level))
+        self.forces.into_inner().unwrap_or_else(|| self.start.ramped(self.load_factor))
     }
 
     /// Sum of the released reactions that remain at some dofs [force].
     pub(super) fn left_of(&self, dofs: &[usize]) -> f64 {
-        match self.start.stage.released.is_empty() {
+        match self.start.step.released.is_empty() {
             true => 0.0,
             false => dofs.iter().map(|&dof| self.forces().released[dof]).sum(),
         }
@@ -54,7 +54,7 @@ impl StepLoad<'_> {
 #[derive(Debug)]
 pub(super) struct Start<'a> {
     problem: &'a Problem,
-    stage: &'a BoundStep,
+    step: &'a BoundStep,
     initial: Vec<f64>,
     u: Vec<f64>,
     reactions: Vec<f64>,
@@ -69,42 +69,42 @@ impl<'a> Start<'a> {
     /// Of displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
     pub(super) fn new(
         problem: &'a Problem,
-        stage: &'a BoundStep,
+        step: &'a BoundStep,
         initial: Vec<f64>,
         u: Vec<f64>,
         reactions: Vec<f64>,
     ) -> Start<'a> {
-        Start { problem, stage, initial, u, reactions }
+        Start { problem, step, initial, u, reactions }
     }
 
     /// Loads at a level.
-    pub(super) fn at(&self, level: f64) -> Result<StepLoad<'_>> {
-        let load = StepLoad { level, start: self, forces: OnceCell::new() };
-        if !self.stage.follows_load_factor() {
+    pub(super) fn at(&self, load_factor: f64) -> Result<StepLoad<'_>> {
+        let load = StepLoad { load_factor, start: self, forces: OnceCell::new() };
+        if !self.step.follows_load_factor() {
             return Ok(load);
         }
         // only formulas can fail
         let (force, prescribed) =
-            (self.stage.force(&self.problem.model, level)?, self.stage.prescribed(&self.u, level)?);
-        Ok(StepLoad { forces: OnceCell::from(self.forces(level, force, prescribed)), ..load })
+            (self.step.force(&self.problem.model, load_factor)?, self.step.prescribed(&self.u, load_factor)?);
+        Ok(StepLoad { forces: OnceCell::from(self.forces(load_factor, force, prescribed)), ..load })
     }
 
     /// Forces of a step without formulas in the load factor.
-    fn ramped(&self, level: f64) -> LoadForces {
-        self.forces(level, self.stage.ramped(level), self.stage.moved(&self.u, level))
+    fn ramped(&self, load_factor: f64) -> LoadForces {
+        self.forces(load_factor, self.step.ramped(load_factor), self.step.moved(&self.u, load_factor))
     }
 
-    fn forces(&self, level: f64, force: Vec<f64>, prescribed: Vec<f64>) -> LoadForces {
+    fn forces(&self, load_factor: f64, force: Vec<f64>, prescribed: Vec<f64>) -> LoadForces {
         let mut released = vec![0.0; self.u.len()];
-        let left = |dof: usize| (1.0 - level) * self.reactions[dof];
-        self.stage.released.iter().for_each(|&dof| released[dof] = left(dof));
+        let left = |dof: usize| (1.0 - load_factor) * self.reactions[dof];
+        self.step.released.iter().for_each(|&dof| released[dof] = left(dof));
         let loaded = force.iter().zip(&released).zip(&self.initial).map(|((f, r), f0)| f + r - f0).collect();
         LoadForces { force, released, loaded, prescribed }
     }
 
     /// Loads at both ends if they are affine between them.
     pub(super) fn ramp(&self) -> Result<Option<Ramp>> {
-        if self.stage.follows_load_factor() {
+        if self.step.follows_load_factor() {
             return Ok(None);
         }
         let [start, end] = [self.at(0.0)?.into_forces(), self.at(1.0)?.into_forces()];
@@ -117,13 +117,19 @@ impl<'a> Start<'a> {
         let reactions: Vec<f64> = self
             .reactions
             .iter()
-            .zip(&self.stage.held)
-            .map(|(r, &held)| if held { *r } else { 0.0 })
+            .zip(&self.step.constrained)
+            .map(|(r, &constrained)| if constrained { *r } else { 0.0 })
             .collect();
         let [f0, f1] = [0, 1].map(|end| dot(&ramp.force[end], &self.u));
         let [r0, r1] = [0, 1].map(|end| dot(&ramp.prescribed[end], &reactions));
         let (loads, supports) = ([f0, f1 - f0], [r0, r1 - r0]);
-        Ledger { level: 0.0, loads, supports, initial: dot(&self.initial, &self.u), columns: Vec::new() }
+        Ledger {
+            load_factor: 0.0,
+            loads,
+            supports,
+            initial: dot(&self.initial, &self.u),
+            columns: Vec::new(),
+        }
     }
 
     /// What work, energy and history need of the displacements when these are not recovered: see `Ledger`.
@@ -131,13 +137,13 @@ impl<'a> Start<'a> {
         let terms = |at: &dyn Fn(usize) -> f64| -> Vec<(usize, f64)> {
             (0..self.u.len()).map(|i| (i, at(i))).filter(|(_, value)| *value != 0.0).collect()
         };
-        let held = |i: usize| self.stage.held[i];
+        let constrained = |i: usize| self.step.constrained[i];
         let ([f0, f1], [u0, u1]) = (&ramp.force, &ramp.prescribed);
         let mut measures = vec![
             LinearMeasure::Displacement(terms(&|i| f0[i])),
             LinearMeasure::Displacement(terms(&|i| f1[i] - f0[i])),
-            LinearMeasure::Reaction(terms(&|i| if held(i) { u0[i] } else { 0.0 })),
-            LinearMeasure::Reaction(terms(&|i| if held(i) { u1[i] - u0[i] } else { 0.0 })),
+            LinearMeasure::Reaction(terms(&|i| if constrained(i) { u0[i] } else { 0.0 })),
+            LinearMeasure::Reaction(terms(&|i| if constrained(i) { u1[i] - u0[i] } else { 0.0 })),
             LinearMeasure::Displacement(terms(&|i| self.initial[i])),
         ];
         for (_, probe) in &self.problem.probes {
@@ -155,8 +161,8 @@ impl<'a> Start<'a> {
 /// The measures of one increment, in the order of `Start::measures`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Ledger {
-    /// Load level.
-    pub(super) level: f64,
+    /// Load factor.
+    pub(super) load_factor: f64,
     /// f · u with the loads at the step's start, and with their change.
     pub(super) loads: [f64; 2],
     /// Reactions · ū with the displacements at the step's start, and with their change.
@@ -169,24 +175,25 @@ pub(super) struct Ledger {
 
 impl Ledger {
     /// From what an engine has measured.
-    pub(super) fn new(level: f64, measured: &[f64]) -> Option<Ledger> {
+    pub(super) fn new(load_factor: f64, measured: &[f64]) -> Option<Ledger> {
         let [f0, f1, r0, r1, initial, columns @ ..] = measured else { return None };
         let (loads, supports) = ([*f0, *f1], [*r0, *r1]);
-        Some(Ledger { level, loads, supports, initial: *initial, columns: columns.to_vec() })
+        Some(Ledger { load_factor, loads, supports, initial: *initial, columns: columns.to_vec() })
     }
 
     /// ½ (f₀ + f₁) · Δu of loads and reactions from an earlier ledger to this one; initial tractions are no loads.
     pub(super) fn work_since(&self, before: &Ledger) -> f64 {
-        let mean = 0.5 * (self.level + before.level);
+        let mean = 0.5 * (self.load_factor + before.load_factor);
         let loads = self.loads[0] - before.loads[0] + mean * (self.loads[1] - before.loads[1]);
-        let supports = 0.5 * (self.supports[1] + before.supports[1]) * (self.level - before.level);
+        let supports =
+            0.5 * (self.supports[1] + before.supports[1]) * (self.load_factor - before.load_factor);
         loads + supports + self.initial - before.initial
     }
 
-    /// Elastic energy of the bodies and of the joints that are elastic, `across`: Σ q · a of all others.
+    /// Elastic energy of the bodies and of the interfaces that are elastic, `across`: Σ q · a of all others.
     pub(super) fn stored(&self, across: f64) -> f64 {
-        let loads = self.loads[0] + self.level * self.loads[1];
-        let supports = self.supports[0] + self.level * self.supports[1];
+        let loads = self.loads[0] + self.load_factor * self.loads[1];
+        let supports = self.supports[0] + self.load_factor * self.supports[1];
         0.5 * (loads + supports - across) + self.initial
     }
 }

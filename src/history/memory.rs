@@ -30,7 +30,7 @@ pub(super) fn needed(factor: usize, matrix: usize, dofs: usize) -> u64 {
 }
 
 /// Refuses a run that needs more than there is.
-pub(super) fn refuse(dofs: usize, entries: usize, needed: u64, available: Option<u64>) -> Result<()> {
+pub(super) fn check_fits(dofs: usize, entries: usize, needed: u64, available: Option<u64>) -> Result<()> {
     match available {
         Some(available) if needed > available => Err(Error::Program {
             program: "midplane".into(),
@@ -40,7 +40,7 @@ pub(super) fn refuse(dofs: usize, entries: usize, needed: u64, available: Option
                 entries as f64 * 1e-6,
                 gigabytes(available)
             ),
-            cure: "use coarser meshes or a machine with more memory".into(),
+            help: "use coarser meshes or a machine with more memory".into(),
         }),
         _ => Ok(()),
     }
@@ -51,7 +51,7 @@ pub(super) fn too_large(dofs: usize) -> Error {
     Error::Program {
         program: "midplane".into(),
         what: format!("the factor of {dofs} dofs has more than 2147483647 entries"),
-        cure: "use coarser meshes".into(),
+        help: "use coarser meshes".into(),
     }
 }
 

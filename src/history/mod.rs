@@ -75,7 +75,7 @@ pub struct History<'a> {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Position {
     /// Number of the step.
-    step: usize,
+    step_number: usize,
     phase: Phase,
 }
 
@@ -115,7 +115,7 @@ impl<'a> History<'a> {
             ..Totals::default()
         };
         let (engine, state) = (equations.engine(), ModelState::unloaded(problem));
-        let position = Position { step: 0, phase: Phase::Supports };
+        let position = Position { step_number: 0, phase: Phase::Supports };
         History { analysis: Analysis { problem, engine, state, totals, clock }, position, loads: None }
     }
 
@@ -130,18 +130,18 @@ impl<'a> History<'a> {
         let engine = equations.engine();
         let mut analysis = Analysis { problem, engine, state, totals, clock };
         let mut loads = None;
-        if let (Some(stage), false) =
-            (problem.stages.get(position.step), matches!(position.phase, Phase::Supports))
+        if let (Some(step), false) =
+            (problem.steps.get(position.step_number), matches!(position.phase, Phase::Supports))
         {
             analysis.clock.begin("factor");
             let kept = analysis.totals.increments;
-            analysis.engine.support(&stage.held).map_err(|_| singular(stage, kept))?;
+            analysis.engine.support(&step.constrained).map_err(|_| singular(step, kept))?;
             if let Some([u, reactions]) = before {
-                let start = Start::new(problem, stage, initial_force(problem), u, reactions);
+                let start = Start::new(problem, step, initial_force(problem), u, reactions);
                 let ramp = start.ramp()?;
                 load::prepare(
                     &mut analysis,
-                    stage,
+                    step,
                     &start,
                     ramp.as_ref(),
                     matches!(position.phase, Phase::PathSearch(_)),
@@ -181,9 +181,9 @@ impl<'a> History<'a> {
     #[expect(clippy::should_implement_trait, reason = "a history ends with an error or without")]
     pub fn next(&mut self) -> Result<Option<Increment<'a>>> {
         let problem = self.analysis.problem;
-        while let Some(stage) = problem.stages.get(self.position.step) {
-            let step = self.position.step;
-            if let Some(increment) = self.go_on(step, stage)? {
+        while let Some(step) = problem.steps.get(self.position.step_number) {
+            let step_number = self.position.step_number;
+            if let Some(increment) = self.go_on(step_number, step)? {
                 return Ok(Some(increment));
             }
         }
@@ -192,22 +192,22 @@ impl<'a> History<'a> {
     }
 
     /// The next phase of a step, and the increment that it gives.
-    fn go_on(&mut self, step: usize, stage: &'a BoundStep) -> Result<Option<Increment<'a>>> {
+    fn go_on(&mut self, step_number: usize, step: &'a BoundStep) -> Result<Option<Increment<'a>>> {
         let History { analysis, position, loads } = self;
-        let at = Increment::of(step, stage, analysis.totals.increments);
+        let at = Increment::of(step_number, step, analysis.totals.increments);
         let reached = match (&mut position.phase, loads) {
             (Phase::Supports, loads) => {
                 *loads = None;
                 analysis.clock.begin("factor");
-                let factored = analysis.engine.support(&stage.held);
-                let factored = factored.map_err(|_| singular(stage, analysis.totals.increments))?;
+                let factored = analysis.engine.support(&step.constrained);
+                let factored = factored.map_err(|_| singular(step, analysis.totals.increments))?;
                 analysis.totals.factorisations += usize::from(factored);
                 position.phase = Phase::Loads;
-                return Ok((step == 0).then_some(at));
+                return Ok((step_number == 0).then_some(at));
             }
-            (Phase::StepLoad(at), Some((start, _))) => load::next(analysis, stage, start, at)?,
+            (Phase::StepLoad(at), Some((start, _))) => load::next(analysis, step, start, at)?,
             (Phase::PathSearch(at), Some((start, Some(ramp)))) => {
-                path::next(analysis, stage, start, ramp, at)?
+                path::next(analysis, step, start, ramp, at)?
             }
             (Phase::Lost { number, load_factor, why, shown }, loads) => {
                 let increment = analysis.totals.increments;
@@ -218,10 +218,10 @@ impl<'a> History<'a> {
                     let (number, load_factor) = (*number, *load_factor);
                     return Ok(Some(Increment { number, load_factor, ended: true, ..at }));
                 }
-                return Err(no_equilibrium(analysis.problem, stage, *number, increment, *load_factor, why));
+                return Err(no_equilibrium(analysis.problem, step, *number, increment, *load_factor, why));
             }
             (Phase::Loads | Phase::StepLoad(_) | Phase::PathSearch(_), _) => {
-                self.open(step, stage)?;
+                self.open(step_number, step)?;
                 return Ok(None);
             }
         };
@@ -229,7 +229,7 @@ impl<'a> History<'a> {
         if let Some(why) = lost {
             position.phase = Phase::Lost { number, load_factor, why, shown: false };
         } else if last {
-            *position = Position { step: step + 1, phase: Phase::Supports };
+            *position = Position { step_number: step_number + 1, phase: Phase::Supports };
         }
         if !moved {
             analysis.totals.iterations += iterations;
@@ -241,25 +241,25 @@ impl<'a> History<'a> {
     }
 
     /// Prepares the loads of a step.
-    fn open(&mut self, step: usize, stage: &'a BoundStep) -> Result<()> {
+    fn open(&mut self, step_number: usize, step: &'a BoundStep) -> Result<()> {
         let History { analysis, position, loads } = self;
         let problem = analysis.problem;
         let start = |state: &ModelState| {
             let (u, reactions) = (state.snapshot.u.clone(), state.reactions.clone());
-            Start::new(problem, stage, initial_force(problem), u, reactions)
+            Start::new(problem, step, initial_force(problem), u, reactions)
         };
-        if step == 0 {
+        if step_number == 0 {
             let unloaded = start(&analysis.state);
-            settle(analysis, stage, &unloaded)?;
+            settle(analysis, step, &unloaded)?;
         }
         let start = start(&analysis.state);
         let ramp = start.ramp()?;
-        let follows = stage.control != Control::Load && !active(problem).is_empty() && ramp.is_some();
-        let thrifty = load::prepare(analysis, stage, &start, ramp.as_ref(), follows);
+        let follows = step.control != Control::Load && !active(problem).is_empty() && ramp.is_some();
+        let thrifty = load::prepare(analysis, step, &start, ramp.as_ref(), follows);
         analysis.state.open(ramp.as_ref().filter(|_| thrifty).map(|ramp| start.ledger(ramp)));
         position.phase = match follows {
-            true => Phase::PathSearch(PathStep::new(stage, analysis.state.dissipated)),
-            false => Phase::StepLoad(LoadStep::new(stage, thrifty)),
+            true => Phase::PathSearch(PathStep::new(step, analysis.state.dissipated)),
+            false => Phase::StepLoad(LoadStep::new(step, thrifty)),
         };
         *loads = Some((start, ramp));
         Ok(())

@@ -41,8 +41,8 @@ pub(super) fn advance(
     at: &mut StepProgress,
 ) -> Result<Outcome<usize>> {
     let (mut iterations, mut failed, mut cut) = (0, 0, false);
-    while at.level < leg.goal {
-        let from = at.level;
+    while at.load_factor < leg.goal {
+        let from = at.load_factor;
         let to = if from + 1.001 * at.width >= leg.goal { leg.goal } else { from + at.width };
         let load = leg.start.at(to)?;
         at.most = at.most.max(carried(analysis.problem, &analysis.state.snapshot).sqrt());
@@ -60,7 +60,7 @@ pub(super) fn advance(
                         false => to - from,
                     };
                     at.width = if error == 0.0 { leg.part } else { at.width.min(leg.part) };
-                    (at.last, at.level, at.fresh, at.patience) = (to - from, to, false, 4);
+                    (at.last, at.load_factor, at.fresh, at.patience) = (to - from, to, false, 4);
                     (at.onset, cut, failed) = (cut, false, 0);
                     analysis.totals.parts += 1;
                     at.summed += work;
@@ -80,7 +80,7 @@ pub(super) fn advance(
                 NARROWER * (to - from)
             }
             Err(Failure::Unusable(error)) => {
-                return Err(unusable(leg.stage, leg.number, analysis.totals.increments, error));
+                return Err(unusable(leg.step, leg.number, analysis.totals.increments, error));
             }
         };
         analysis.totals.rejected += 1;

@@ -1,15 +1,15 @@
-//! A step along the path of equilibria: by load level while nothing dissipates, by dissipated energy while something does;
+//! A step along the path of equilibria: by load factor while nothing dissipates, by dissipated energy while something does;
 //! or by the change of the jumps throughout (`arclength`).
 //!
-//! No number is set by hand. The first step beyond the sound state dissipates a small part of the elastic energy that is
-//! stored then; later ones as much more or less as iterations allow, with no more change of the load level than the step's
-//! increments have, until the load level reaches its end for good.
+//! No number is set by hand. The first step beyond the intact state dissipates a small part of the elastic energy that is
+//! stored then; later ones as much more or less as iterations allow, with no more change of the load factor than the step's
+//! increments have, until the load factor reaches its end for good.
 
 use serde::{Deserialize, Serialize};
 
 use super::analysis::Analysis;
 use super::arclength::arc;
-use super::dissipate::{along, sound};
+use super::dissipate::{along, intact};
 use super::energy::carried;
 use super::loading::Start;
 use super::outcome::Outcome;
@@ -37,15 +37,15 @@ pub(super) struct PathStep {
 
 impl PathStep {
     /// Before the first increment, with the energy dissipated so far.
-    pub(super) fn new(stage: &BoundStep, dissipated: f64) -> PathStep {
+    pub(super) fn new(step: &BoundStep, dissipated: f64) -> PathStep {
         let at = PathProgress {
-            level: 0.0,
+            load_factor: 0.0,
             change: 0.0,
             spent: 0.0,
             amount: 0.0,
             ratio: 1.0,
             most: 0.0,
-            width: 1.0 / stage.increments as f64,
+            width: 1.0 / step.increments as f64,
             wait: 0,
             patience: 1,
             tried: 0,
@@ -57,46 +57,46 @@ impl PathStep {
 /// The next increment.
 pub(super) fn next(
     analysis: &mut Analysis,
-    stage: &BoundStep,
+    step: &BoundStep,
     start: &Start,
     ramp: &Ramp,
     PathStep { number, at, rising, passed }: &mut PathStep,
 ) -> Result<Reached> {
-    let part = 1.0 / stage.increments as f64;
-    if *number == MOST * stage.increments {
+    let part = 1.0 / step.increments as f64;
+    if *number == MOST * step.increments {
         let reason = "the path does not reach its end".into();
         let why = Unconverged { reason, worst: Vec::new(), iterations: 0 };
         return Ok(lost(*number, at, why));
     }
     *number += 1;
     analysis.clock.begin("solve");
-    let before = at.level;
+    let before = at.load_factor;
     at.most = at.most.max(carried(analysis.problem, &analysis.state.snapshot));
-    let found = match stage.control {
+    let found = match step.control {
         Control::Arclength => arc(analysis, start, ramp, at, part),
         _ if at.spent > 0.0 => along(analysis, start, ramp, at, part),
-        _ => sound(analysis, start, ramp, at, part),
+        _ => intact(analysis, start, ramp, at, part),
     };
     let tried = std::mem::take(&mut at.tried);
     let iterations = tried
         + match found? {
             Outcome::Converged(iterations) => iterations,
-            Outcome::Retry(_) => match go_on(analysis, start, at, stage, part)? {
+            Outcome::Retry(_) => match go_on(analysis, start, at, step, part)? {
                 Outcome::Converged(iterations) => iterations,
                 Outcome::Retry(why) => return Ok(lost(*number, at, why)),
             },
         };
-    *passed = [passed[1], passed[2], (analysis.state.dissipated, at.level)];
-    if *rising * (at.level - before) < 0.0 {
-        analysis.totals.turns.push((analysis.totals.increments, stage.name.clone(), vertex(*passed)));
+    *passed = [passed[1], passed[2], (analysis.state.dissipated, at.load_factor)];
+    if *rising * (at.load_factor - before) < 0.0 {
+        analysis.totals.turns.push((analysis.totals.increments, step.name.clone(), vertex(*passed)));
     }
-    *rising = at.level - before;
-    let last = at.level >= 1.0;
-    Ok(Reached { number: *number, load_factor: at.level, iterations, last, moved: true, lost: None })
+    *rising = at.load_factor - before;
+    let last = at.load_factor >= 1.0;
+    Ok(Reached { number: *number, load_factor: at.load_factor, iterations, last, moved: true, lost: None })
 }
 
 fn lost(number: usize, at: &PathProgress, why: Unconverged) -> Reached {
-    let (load_factor, lost) = (at.level, Some(why));
+    let (load_factor, lost) = (at.load_factor, Some(why));
     Reached { number, load_factor, iterations: 0, last: false, moved: false, lost }
 }
 
@@ -106,20 +106,21 @@ fn go_on(
     analysis: &mut Analysis,
     start: &Start,
     at: &mut PathProgress,
-    stage: &BoundStep,
+    step: &BoundStep,
     part: f64,
 ) -> Result<Outcome<usize>> {
-    let goal = (at.level + part).min(1.0);
-    let leg = LoadIncrement { start, stage, number: 0, goal, part, complete: true };
-    let mut progress = StepProgress { level: at.level, most: at.most.sqrt(), ..StepProgress::new(part) };
+    let goal = (at.load_factor + part).min(1.0);
+    let leg = LoadIncrement { start, step, number: 0, goal, part, complete: true };
+    let mut progress =
+        StepProgress { load_factor: at.load_factor, most: at.most.sqrt(), ..StepProgress::new(part) };
     let went = viscous(analysis, &leg, &mut progress, part)?;
     if let Outcome::Converged(_) = went {
-        (at.level, at.change, at.spent) = (progress.level, 0.0, 0.0);
+        (at.load_factor, at.change, at.spent) = (progress.load_factor, 0.0, 0.0);
     }
     Ok(went)
 }
 
-/// Extreme load level of the parabola through three points (dissipated energy, load level); the middle one's where there is
+/// Extreme load factor of the parabola through three points (dissipated energy, load factor); the middle one's where there is
 /// none, or where the path has a corner: a parabola would be far off.
 fn vertex([(d0, l0), (d1, l1), (d2, l2)]: [(f64, f64); 3]) -> f64 {
     let (before, after) = ((l1 - l0) / (d1 - d0), (l2 - l1) / (d2 - d1));

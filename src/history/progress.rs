@@ -9,7 +9,7 @@ use crate::solver::Unconverged;
 /// One increment of a step.
 pub(super) struct LoadIncrement<'a, 'b> {
     pub(super) start: &'b Start<'a>,
-    pub(super) stage: &'b BoundStep,
+    pub(super) step: &'b BoundStep,
     /// Number within its step.
     pub(super) number: usize,
     /// Load factor at its end.
@@ -24,7 +24,7 @@ pub(super) struct LoadIncrement<'a, 'b> {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct StepProgress {
     /// Load factor.
-    pub(super) level: f64,
+    pub(super) load_factor: f64,
     /// Size of the next part, and of the last.
     pub(super) width: f64,
     pub(super) last: f64,
@@ -46,7 +46,7 @@ impl StepProgress {
     /// At the start of a step whose increments are `part` of it.
     pub(super) fn new(part: f64) -> StepProgress {
         StepProgress {
-            level: 0.0,
+            load_factor: 0.0,
             width: part,
             last: f64::INFINITY,
             most: 0.0,
@@ -78,15 +78,15 @@ pub(super) struct Reached {
 /// Where a step along the path stands.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct PathProgress {
-    pub(super) level: f64,
-    /// The last change of the load level, and the energy that it dissipated.
+    pub(super) load_factor: f64,
+    /// The last change of the load factor, and the energy that it dissipated.
     pub(super) change: f64,
     pub(super) spent: f64,
     /// Energy of the next step.
     pub(super) amount: f64,
     /// Length of the next step, of the last one.
     pub(super) ratio: f64,
-    /// The most that the joints have carried, as `State::carried`.
+    /// The most that the interfaces have carried, as `State::carried`.
     pub(super) most: f64,
     /// Size of the next part by the load factor.
     pub(super) width: f64,

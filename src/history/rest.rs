@@ -46,16 +46,24 @@ pub(super) fn rest(
             break;
         }
         let strict = left < VERY_NEAR && !refused;
-        match creep(analysis, leg, at, at.level, Viscous { viscosity: c, ahead, strict }, false, stretch)? {
+        match creep(
+            analysis,
+            leg,
+            at,
+            at.load_factor,
+            Viscous { viscosity: c, ahead, strict },
+            false,
+            stretch,
+        )? {
             Outcome::Converged(Motion { iterations, moved, closing, pull, pulled, change, .. }) => {
                 // the same force on growing steps of what only slides or opens: nothing holds it
                 let same = (pull / before - 1.0).abs() < SAME && change < SAME && closing < CLOSES * moved;
                 (free, spent) = if same { (free + 1, spent + iterations) } else { (0, 0) };
                 (before, ahead) = (pull, 1.0);
-                let load = leg.start.at(at.level)?;
+                let load = leg.start.at(at.load_factor)?;
                 left = analysis.engine.imbalance(&analysis.state, &load);
                 let tolerance = analysis.problem.solution.tolerance;
-                // a viscosity that pulls at nothing leaves what rounding does: stiff joints that have slid far have few digits
+                // a viscosity that pulls at nothing leaves what rounding does: stiff interfaces that have slid far have few digits
                 let rounded = pulled < GONE * tolerance && left.max(change) <= ROUNDED;
                 if left.max(change) <= tolerance || rounded {
                     analysis.state.stands(left);

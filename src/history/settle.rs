@@ -1,4 +1,4 @@
-//! Initial tractions before the first increment: forces of elastic joints, and the relaxation of what nothing holds.
+//! Initial tractions before the first increment: forces of elastic interfaces, and the relaxation of what nothing holds.
 
 use super::analysis::Analysis;
 use super::equilibrium::{Ahead, Failure};
@@ -11,20 +11,20 @@ use crate::problem::{BoundStep, Problem};
 const ROUNDED: f64 = 1e-10;
 
 /// Lets initial tractions, and those of overlaps, that supports and loads do not hold relax, before the first increment.
-pub(super) fn settle(analysis: &mut Analysis, stage: &BoundStep, start: &Start) -> Result<()> {
+pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -> Result<()> {
     let problem = analysis.problem;
     let mut tractions = vec![0.0; problem.model.dofs()];
     let mut sum = 0.0;
     let mut given = false;
-    for (k, (joint, (_, initial))) in problem.model.joints.iter().zip(&problem.laws).enumerate() {
+    for (k, (interface, (_, initial))) in problem.model.interfaces.iter().zip(&problem.laws).enumerate() {
         let states = &problem.states[k];
         // faces that overlap press on each other without a traction of the scene
         let at = |p: usize| states.get(p).map_or(initial.at(p), |state| state.traction.into());
-        let points = 0..joint.coupling.points.len();
+        let points = 0..interface.coupling.points.len();
         given |= points.clone().any(|p| initial.at(p) != [0.0; 2]);
         let at: Vec<f64> = points.flat_map(at).collect();
         if at.iter().any(|t| *t != 0.0) {
-            joint.add_force(&at, &mut tractions);
+            interface.add_force(&at, &mut tractions);
         }
     }
     sum += tractions.iter().map(|f| f.abs()).sum::<f64>();
@@ -35,7 +35,7 @@ pub(super) fn settle(analysis: &mut Analysis, stage: &BoundStep, start: &Start) 
     let LoadForces { force, released, .. } = load.forces();
     // forces of what is not in equilibrium at the start, on free dofs
     let left: Vec<f64> = (0..tractions.len())
-        .map(|i| if stage.held[i] { 0.0 } else { force[i] + released[i] - tractions[i] })
+        .map(|i| if step.constrained[i] { 0.0 } else { force[i] + released[i] - tractions[i] })
         .collect();
     let rest = left.iter().map(|f| f.abs()).sum::<f64>() / sum;
     if rest <= ROUNDED {
@@ -46,8 +46,8 @@ pub(super) fn settle(analysis: &mut Analysis, stage: &BoundStep, start: &Start) 
     analysis.state.open(None);
     let released = analysis.engine.solve(&analysis.state, &load, Ahead::default(), true);
     let found = released.map_err(|failure| match failure {
-        Failure::Unconverged(why) => no_equilibrium(problem, stage, 1, 0, 0.0, &why),
-        Failure::Unusable(error) => unusable(stage, 1, 0, error),
+        Failure::Unconverged(why) => no_equilibrium(problem, step, 1, 0, 0.0, &why),
+        Failure::Unusable(error) => unusable(step, 1, 0, error),
     })?;
     analysis.totals.iterations += found.iterations;
     let work = |u: &[f64]| 0.5 * left.iter().zip(u).map(|(f, u)| f * u).sum::<f64>();
@@ -60,14 +60,16 @@ pub(super) fn settle(analysis: &mut Analysis, stage: &BoundStep, start: &Start) 
     Ok(())
 }
 
-/// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic joints (paper eq. 12); other laws know theirs.
+/// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic interfaces (paper eq. 12); other laws know theirs.
 pub(super) fn initial_force(problem: &Problem) -> Vec<f64> {
     let mut force = vec![0.0; problem.model.dofs()];
-    for ((joint, (_, initial)), states) in problem.model.joints.iter().zip(&problem.laws).zip(&problem.states)
+    for ((interface, (_, initial)), states) in
+        problem.model.interfaces.iter().zip(&problem.laws).zip(&problem.states)
     {
         if states.is_empty() {
-            let tractions: Vec<f64> = (0..joint.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
-            joint.add_force(&tractions, &mut force);
+            let tractions: Vec<f64> =
+                (0..interface.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
+            interface.add_force(&tractions, &mut force);
         }
     }
     force

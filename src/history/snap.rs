@@ -33,10 +33,11 @@ pub(super) fn tell(
     let (interface, at) = place_of(analysis, &stretch.worst());
     let half = before + 0.5 * released;
     let (to, _) = stretch.work.last().copied().unwrap_or((leg.goal, 0.0));
-    let load_factor = stretch.work.iter().find(|(_, work)| *work >= half).map_or(to, |(level, _)| *level);
+    let load_factor =
+        stretch.work.iter().find(|(_, work)| *work >= half).map_or(to, |(load_factor, _)| *load_factor);
     analysis.totals.snaps.push(Snap {
         increment: analysis.totals.increments + 1,
-        step: leg.stage.name.clone(),
+        step: leg.step.name.clone(),
         load_factor,
         between: [stretch.from, to],
         interface,
@@ -47,9 +48,9 @@ pub(super) fn tell(
 
 /// Name and position of a law point.
 pub(super) fn place_of(analysis: &Analysis, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
-    let Some(&(joint, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
-    let joint = &analysis.problem.model.joints[joint];
-    (joint.name.clone(), joint.coupling.points[point].position)
+    let Some(&(interface, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
+    let interface = &analysis.problem.model.interfaces[interface];
+    (interface.name.clone(), interface.coupling.points[point].position)
 }
 
 /// Tells energy that is lost at once in a part, where a traction drops, as a snap.
@@ -61,12 +62,12 @@ pub(super) fn tell_drop(
     found: &Converged,
 ) {
     let (mut released, mut most) = (0.0, (0.0, (0, 0)));
-    for of in &found.joints {
-        let points = &analysis.problem.model.joints[of.joint].coupling.points;
+    for of in &found.interfaces {
+        let points = &analysis.problem.model.interfaces[of.interface].coupling.points;
         for (p, (point, answer)) in points.iter().zip(&of.memory).enumerate() {
             released += analysis.problem.model.thickness * point.weight * answer.released;
             if answer.released > most.0 {
-                most = (answer.released, (of.joint, p));
+                most = (answer.released, (of.interface, p));
             }
         }
     }
@@ -76,7 +77,7 @@ pub(super) fn tell_drop(
         return;
     }
     let (interface, at) = place_of(analysis, &[most.1]);
-    let (increment, step) = (analysis.totals.increments + 1, leg.stage.name.clone());
+    let (increment, step) = (analysis.totals.increments + 1, leg.step.name.clone());
     let between = [from, to];
     analysis.totals.snaps.push(Snap { increment, step, load_factor: to, between, interface, at, released });
 }

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::converged::{Converged, InterfaceResponse};
 use super::energy::{across, elastic_energy, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
-use crate::assembly::{Joint, Model};
+use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Law};
 use crate::output::Snapshot;
@@ -24,20 +24,20 @@ use crate::solver::NodalSolution;
 /// The model after an increment.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ModelState {
-    /// Jumps, tractions and states of the joints; displacements and stresses of the bodies where fields are stored, else
+    /// Jumps, tractions and states of the interfaces; displacements and stresses of the bodies where fields are stored, else
     /// none.
     pub snapshot: Snapshot,
     /// External forces by dof [force]; none where fields are not stored.
     pub force: Vec<f64>,
     /// Reactions by dof [force]; none where fields are not stored.
     pub reactions: Vec<f64>,
-    /// Componentwise backward error of the solution; relative out-of-balance force where joints are not elastic.
+    /// Componentwise backward error of the solution; relative out-of-balance force where interfaces are not elastic.
     pub residual: f64,
     /// The residual before every iteration and at the end; of an increment that was divided, those of its last part.
     pub residuals: Vec<f64>,
-    /// Elastic energy of bodies and joints [force × length].
+    /// Elastic energy of bodies and interfaces [force × length].
     pub stored: f64,
-    /// Energy dissipated by the joints so far [force × length].
+    /// Energy dissipated by the interfaces so far [force × length].
     pub dissipated: f64,
     /// Work of loads and prescribed displacements so far [force × length].
     pub work: f64,
@@ -55,10 +55,10 @@ impl ModelState {
     /// Before the first increment.
     pub(super) fn unloaded(problem: &Problem) -> ModelState {
         let u = vec![0.0; problem.model.dofs()];
-        let none = |joint: &Joint| vec![[0.0; 2]; joint.coupling.points.len()];
+        let none = |interface: &InterfaceOperator| vec![[0.0; 2]; interface.coupling.points.len()];
         let snapshot = Snapshot {
             u: u.clone(),
-            jumps: problem.model.joints.iter().map(none).collect(),
+            jumps: problem.model.interfaces.iter().map(none).collect(),
             states: problem.states.clone(),
             ..Snapshot::default()
         };
@@ -95,7 +95,7 @@ impl ModelState {
 
     /// Takes what converged under a load.
     pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: StepLoad) {
-        let Converged { solution, mut ledger, joints, released, residuals, .. } = found;
+        let Converged { solution, mut ledger, interfaces, released, residuals, .. } = found;
         self.released += released;
         self.work += match (&ledger, &self.ledger, &solution) {
             (Some(now), Some(before), _) => now.work_since(before),
@@ -117,17 +117,17 @@ impl ModelState {
             reactions.iter_mut().zip(&released).for_each(|(reaction, released)| *reaction += released);
             (self.snapshot.u, self.force, self.reactions) = (u, force, reactions);
         }
-        for InterfaceResponse { joint, jumps, memory } in joints {
-            let old = &mut self.snapshot.states[joint];
-            let points = &problem.model.joints[joint].coupling.points;
+        for InterfaceResponse { interface, jumps, memory } in interfaces {
+            let old = &mut self.snapshot.states[interface];
+            let points = &problem.model.interfaces[interface].coupling.points;
             for ((point, old), answer) in points.iter().zip(old).zip(memory) {
                 let area = problem.model.thickness * point.weight;
                 self.dissipated += area * answer.dissipation;
                 self.released += area * answer.released;
                 *old = answer.state;
             }
-            self.snapshot.jumps[joint] = jumps;
-            self.found[joint] = true;
+            self.snapshot.jumps[interface] = jumps;
+            self.found[interface] = true;
         }
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
@@ -153,7 +153,7 @@ impl ModelState {
         let Problem { model, laws, .. } = problem;
         let u = &self.snapshot.u;
         self.snapshot.stresses = match self.is_complete() {
-            true => (0..model.bodies.len()).map(|b| stresses(model, b, u)).collect(),
+            true => (0..model.subdomains.len()).map(|b| stresses(model, b, u)).collect(),
             false => Vec::new(),
         };
         self.stored = match &self.ledger {
@@ -161,18 +161,19 @@ impl ModelState {
             _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
         };
         self.snapshot.tractions = Vec::new();
-        for (k, (joint, (law, initial))) in model.joints.iter().zip(laws).enumerate() {
-            let area = |p: usize| model.thickness * joint.coupling.points[p].weight;
+        for (k, (interface, (law, initial))) in model.interfaces.iter().zip(laws).enumerate() {
+            let area = |p: usize| model.thickness * interface.coupling.points[p].weight;
             if let Law::Elastic(_) = law {
                 let d = law.elastic_stiffness();
                 if !self.found[k] {
-                    self.snapshot.jumps[k] = joint.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                    self.snapshot.jumps[k] =
+                        interface.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
                 }
                 let jumps = &self.snapshot.jumps[k];
                 let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
                 self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
                 if !self.is_complete() {
-                    continue; // the ledger has the energy of elastic joints
+                    continue; // the ledger has the energy of elastic interfaces
                 }
                 for (p, r) in jumps.iter().enumerate() {
                     let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial.at(p)[i]) * r[i]).sum();
@@ -229,7 +230,7 @@ impl ModelState {
     }
 }
 
-fn stresses(model: &Model, body: usize, u: &[f64]) -> Stresses {
-    let of = &model.bodies[body];
-    recover(&of.mesh, &u[model.dofs_of(body)], &of.elasticity, model.thickness)
+fn stresses(model: &Model, subdomain: usize, u: &[f64]) -> Stresses {
+    let of = &model.subdomains[subdomain];
+    recover(&of.mesh, &u[model.dofs_of(subdomain)], &of.elasticity, model.thickness)
 }

@@ -41,7 +41,7 @@ pub(super) struct Motion {
     pub(super) pulled: f64,
     /// It is no larger than what is prescribed makes it.
     pub(super) driven: bool,
-    /// Change of what is carried, and the bend of the tractions of joints that dilate, of it.
+    /// Change of what is carried, and the bend of the tractions of interfaces that dilate, of it.
     pub(super) change: f64,
     pub(super) bend: f64,
 }
@@ -100,21 +100,23 @@ pub(super) fn creep(
 
 /// √(Σ w |Δr|²) of interfaces that move twice as far as what is prescribed.
 fn driven(analysis: &Analysis, leg: &LoadIncrement, load: &StepLoad) -> f64 {
-    let ways = load.forces().prescribed.iter().zip(&analysis.state.snapshot.u).zip(&leg.stage.held);
-    let most = ways.filter(|(_, held)| **held).map(|((a, b), _)| (a - b).abs()).fold(0.0, f64::max);
-    let joints = analysis.problem.model.joints.iter().flat_map(|joint| &joint.coupling.points);
-    2.0 * most * joints.map(|point| point.weight).sum::<f64>().sqrt()
+    let ways = load.forces().prescribed.iter().zip(&analysis.state.snapshot.u).zip(&leg.step.constrained);
+    let most =
+        ways.filter(|(_, constrained)| **constrained).map(|((a, b), _)| (a - b).abs()).fold(0.0, f64::max);
+    let interfaces =
+        analysis.problem.model.interfaces.iter().flat_map(|interface| &interface.coupling.points);
+    2.0 * most * interfaces.map(|point| point.weight).sum::<f64>().sqrt()
 }
 
 fn take_viscous(analysis: &mut Analysis, found: Converged, load: StepLoad, stretch: &mut ViscousStretch) {
-    let level = load.level;
-    for of in &found.joints {
-        let states = &analysis.state.snapshot.states[of.joint];
-        let points = &analysis.problem.model.joints[of.joint].coupling.points;
+    let load_factor = load.load_factor;
+    for of in &found.interfaces {
+        let states = &analysis.state.snapshot.states[of.interface];
+        let points = &analysis.problem.model.interfaces[of.interface].coupling.points;
         for (p, (old, new)) in states.iter().zip(&of.memory).enumerate() {
             let moved = new.state.jump - old.jump;
             let work = new.viscous[0] * moved.x + new.viscous[1] * moved.y + new.released;
-            stretch.at[of.joint][p] += work;
+            stretch.at[of.interface][p] += work;
             if old.traction.x == 0.0 && old.traction.y == 0.0 && moved.x < 0.0 {
                 stretch.closing += analysis.problem.model.thickness * points[p].weight * work;
             }
@@ -123,7 +125,7 @@ fn take_viscous(analysis: &mut Analysis, found: Converged, load: StepLoad, stret
     analysis.engine.accept();
     analysis.state.accept(analysis.problem, found, load);
     analysis.totals.parts += 1;
-    stretch.work.push((level, analysis.state.released));
+    stretch.work.push((load_factor, analysis.state.released));
 }
 
 /// The equilibrium of the laws alone at the load reached, if there is one near.
@@ -133,7 +135,7 @@ pub(super) fn by_laws_alone(
     at: &mut StepProgress,
     stretch: &mut ViscousStretch,
 ) -> Result<bool> {
-    let load = leg.start.at(at.level)?;
+    let load = leg.start.at(at.load_factor)?;
     match analysis.engine.solve(&analysis.state, &load, Ahead::default(), leg.complete) {
         Ok(found) => {
             stretch.iterations += found.iterations;

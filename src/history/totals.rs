@@ -28,7 +28,7 @@ pub struct Totals {
     pub factor_entries: usize,
     /// Largest residual of all increments.
     pub residual: f64,
-    /// Where the load level turned on the path of equilibria: number of the increment, step, load level.
+    /// Where the load factor turned on the path of equilibria: number of the increment, step, load factor.
     pub turns: Vec<(usize, String, f64)>,
     /// Snaps to another branch of equilibria.
     pub snaps: Vec<Snap>,

@@ -15,14 +15,14 @@ pub(super) const USUAL: f64 = 5.0;
 /// A step that fails is tried again with this part of its energy, at most so many times.
 pub(super) const SMALLER: f64 = 0.25;
 pub(super) const SMALLEST: usize = 20;
-/// A step on the path goes at most this many increments far: in the load level, and in what the joints carry, of which
+/// A step on the path goes at most this many increments far: in the load factor, and in what the interfaces carry, of which
 /// `TRACTIONS` times an increment's part may change.
 pub(super) const WIDE: f64 = 2.0;
 pub(super) const TRACTIONS: f64 = 4.0;
 /// Joints that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
 
-/// Change of what the joints carry, relative to what they carry now; of exhausted joints, to a small part of the most.
+/// Change of what the interfaces carry, relative to what they carry now; of exhausted interfaces, to a small part of the most.
 pub(super) fn far(analysis: &Analysis, at: &PathProgress, found: &Converged) -> f64 {
     let carried = carried(analysis.problem, &analysis.state.snapshot).max(EXHAUSTED * EXHAUSTED * at.most);
     let change = change(analysis.problem, &analysis.state.snapshot, found);
@@ -35,11 +35,11 @@ pub(super) fn by_load(
     analysis: &mut Analysis,
     start: &Start,
     at: &mut PathProgress,
-    level: f64,
+    load_factor: f64,
     amount: f64,
 ) -> Result<Outcome<(usize, f64), f64>> {
-    let load = start.at(level)?;
-    let ahead = if at.change > 0.0 { (level - at.level) / at.change } else { 0.0 };
+    let load = start.at(load_factor)?;
+    let ahead = if at.change > 0.0 { (load_factor - at.load_factor) / at.change } else { 0.0 };
     let ahead = Ahead { changes: ahead, near: false };
     let found = match analysis.engine.solve(&analysis.state, &load, ahead, true) {
         Ok(found) => found,
@@ -52,31 +52,32 @@ pub(super) fn by_load(
         }
     };
     let spent = dissipation(analysis.problem, &found);
-    let judged = judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.level, level], &found, false)?;
+    let judged =
+        judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.load_factor, load_factor], &found, false)?;
     at.tried += judged.solved;
     if spent > amount || judged.error > 1.0 {
         at.tried += found.iterations;
         analysis.totals.rejected += 1;
         return Ok(Outcome::Retry(if spent > amount { f64::INFINITY } else { judged.error }));
     }
-    let iterations = take(analysis, start, found, at, level, spent)?;
+    let iterations = take(analysis, start, found, at, load_factor, spent)?;
     Ok(Outcome::Converged((iterations, judged.error)))
 }
 
-/// Accepts what was found at a load level. Returns its iterations.
+/// Accepts what was found at a load factor. Returns its iterations.
 pub(super) fn take(
     analysis: &mut Analysis,
     start: &Start,
     found: Converged,
     at: &mut PathProgress,
-    level: f64,
+    load_factor: f64,
     spent: f64,
 ) -> Result<usize> {
     let iterations = found.iterations;
     analysis.engine.accept();
-    analysis.state.accept(analysis.problem, found, start.at(level)?);
+    analysis.state.accept(analysis.problem, found, start.at(load_factor)?);
     analysis.totals.parts += 1;
-    (at.change, at.level, at.spent) = (level - at.level, level, spent);
+    (at.change, at.load_factor, at.spent) = (load_factor - at.load_factor, load_factor, spent);
     if spent > 0.0 {
         at.amount = spent;
     }

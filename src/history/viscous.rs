@@ -31,7 +31,7 @@ const LONGEST: f64 = 1.0 / 200.0;
 const SLIGHT: f64 = 1e-3;
 /// A c above this part of the stiffness makes steps that may change much.
 const STIFF: f64 = 0.1;
-/// The tractions of joints that dilate may bend by so many times the tolerance of the path in a step, of what is carried.
+/// The tractions of interfaces that dilate may bend by so many times the tolerance of the path in a step, of what is carried.
 const BEND: f64 = 2.0;
 /// Largest c, of the stiffness.
 const MOST: f64 = 1e4;
@@ -44,13 +44,13 @@ pub(super) fn viscous(
     width: f64,
 ) -> Result<Outcome<usize>> {
     let mut kept = analysis.state.clone();
-    complete(analysis.problem, &*analysis.engine, &mut kept, leg.start.at(at.level)?);
+    complete(analysis.problem, &*analysis.engine, &mut kept, leg.start.at(at.load_factor)?);
     let search = analysis.engine.begin_viscous();
-    let level = at.level;
+    let load_factor = at.load_factor;
     let released = analysis.state.released;
     let at_points = analysis.state.snapshot.states.iter().map(|states| vec![0.0; states.len()]).collect();
     let mut stretch =
-        ViscousStretch { from: level, work: Vec::new(), at: at_points, closing: 0.0, iterations: 0 };
+        ViscousStretch { from: load_factor, work: Vec::new(), at: at_points, closing: 0.0, iterations: 0 };
     let went = creep_on(analysis, leg, at, width, &mut stretch)?;
     match went {
         Outcome::Converged(()) => {
@@ -59,7 +59,7 @@ pub(super) fn viscous(
         }
         Outcome::Retry(why) => {
             analysis.engine.restore(search);
-            (analysis.state, at.level) = (kept, level);
+            (analysis.state, at.load_factor) = (kept, load_factor);
             Ok(Outcome::Retry(Unconverged { iterations: stretch.iterations, ..why }))
         }
     }
@@ -78,9 +78,9 @@ fn creep_on(
     let most_bent = BEND * analysis.problem.solution.path_tolerance;
     let (mut step, mut last) = ((FIRST * width).min(LONGEST), 0.0);
     loop {
-        let at_goal = at.level >= leg.goal;
+        let at_goal = at.load_factor >= leg.goal;
         if at_goal || wait == 0 {
-            let load = leg.start.at(at.level)?;
+            let load = leg.start.at(at.load_factor)?;
             let left = analysis.engine.imbalance(&analysis.state, &load);
             if left < if at_goal { 1e-2 } else { NEAR } && by_laws_alone(analysis, leg, at, stretch)? {
                 at.width = (4.0 * step).max(1e-4).min(leg.part);
@@ -92,8 +92,8 @@ fn creep_on(
             }
             wait = at.patience;
         }
-        step = step.min(leg.goal - at.level).min(LONGEST);
-        let to = if at.level + step > leg.goal - 1e-13 { leg.goal } else { at.level + step };
+        step = step.min(leg.goal - at.load_factor).min(LONGEST);
+        let to = if at.load_factor + step > leg.goal - 1e-13 { leg.goal } else { at.load_factor + step };
         let c = eta / step;
         let ahead = if last > 0.0 { step / last } else { 0.0 };
         match creep(
@@ -110,10 +110,10 @@ fn creep_on(
                     eta *= SLIGHT / pulled;
                 }
                 last = step;
-                at.level = to;
+                at.load_factor = to;
                 (hold, wait) = (hold.max(1) - 1, wait.max(1) - 1);
                 let grow = if hold == 0 && iterations <= EASY { FACTOR } else { 1.0 };
-                // a joint that dilates presses or opens off a straight way; in a snap, where steps are tiny, that is no matter
+                // an interface that dilates presses or opens off a straight way; in a snap, where steps are tiny, that is no matter
                 let tiny = c > STIFF * stiffness;
                 step *= if tiny { grow } else { grow.min((most_bent / bend).sqrt().max(1.0 / FACTOR)) };
             }

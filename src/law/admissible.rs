@@ -2,23 +2,23 @@
 
 /// Parameters that no law point can follow: the inequality that is broken, with its numbers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{what}; {cure}")]
+#[error("{what}; {help}")]
 pub struct Inadmissible {
     /// The key to blame.
     pub key: &'static str,
     /// The broken inequality with the numbers in it.
     pub what: String,
     /// What would have been right.
-    pub cure: String,
+    pub help: String,
 }
 
-/// `Err` with this key, fault and cure.
-pub(super) fn refuse<T>(
+/// `Err` with this key, fault and help.
+pub(super) fn error_at<T>(
     key: &'static str,
     what: impl Into<String>,
-    cure: impl Into<String>,
+    help: impl Into<String>,
 ) -> Result<T, Inadmissible> {
-    Err(Inadmissible { key, what: what.into(), cure: cure.into() })
+    Err(Inadmissible { key, what: what.into(), help: help.into() })
 }
 
 /// The value must be finite and zero or more.
@@ -26,7 +26,7 @@ pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), Inadmiss
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }
-    refuse(key, format!("{key} = {value:e} is negative or not finite"), "it must be zero or more")
+    error_at(key, format!("{key} = {value:e} is negative or not finite"), "it must be zero or more")
 }
 
 /// The value must be finite and more than zero.
@@ -34,5 +34,5 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<(), Inadmissible
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    refuse(key, format!("{key} = {value:e} is not more than zero"), "it must be more than zero")
+    error_at(key, format!("{key} = {value:e} is not more than zero"), "it must be more than zero")
 }

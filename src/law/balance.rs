@@ -33,9 +33,9 @@ pub(super) fn balance(
     law: &Law,
     old: &State,
     targets: [Prescribed; 2],
-    stepping: Integration,
+    integration: Integration,
 ) -> Result<State, String> {
-    let respond = |jump| law.respond(jump, old, stepping).map_err(|unresolved| unresolved.to_string());
+    let respond = |jump| law.respond(jump, old, integration).map_err(|unresolved| unresolved.to_string());
     match targets {
         [Prescribed::Jump(n), Prescribed::Jump(t)] => Ok(respond(Vector2::new(n, t))?.state),
         [Prescribed::Traction(sigma), Prescribed::Traction(tau)] => {

@@ -27,7 +27,7 @@ impl Law {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Integration,
+        integration: Integration,
         all: bool,
     ) -> Result<Response, Unresolved> {
         match self {
@@ -39,7 +39,7 @@ impl Law {
                 })
             }
             Law::Cracking(law) if law.is_spent(old, SPENT) && (all || law.dilatancy_stress == 0.0) => {
-                let own = law.respond(Vector2::new(old.jump.x, jump.y), old, stepping)?;
+                let own = law.respond(Vector2::new(old.jump.x, jump.y), old, integration)?;
                 let parted = old.jump_plastic.x.max(jump.x);
                 Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted))
             }
@@ -48,7 +48,7 @@ impl Law {
                 let parted = old.jump_plastic.x;
                 Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.status != OPEN, parted))
             }
-            _ => self.respond(jump, old, stepping),
+            _ => self.respond(jump, old, integration),
         }
     }
 }

@@ -20,7 +20,7 @@ use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use admissible::{not_negative, refuse};
+use admissible::{error_at, not_negative};
 
 use crate::error::Warning;
 
@@ -99,10 +99,10 @@ pub enum Unresolved {
         /// The jump that was asked for.
         jump: Vector2<f64>,
     },
-    /// The traction leaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
+    /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
     #[error("the traction leaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
     SnapBack {
-        /// Where on the way the traction leaps.
+        /// Where on the way the traction snaps.
         jump: Vector2<f64>,
     },
 }
@@ -169,10 +169,10 @@ impl Law {
         initial_gap: f64,
     ) -> Result<State, Inadmissible> {
         if !initial_traction.iter().all(|component| component.is_finite()) {
-            return refuse("initial_traction", "initial_traction is not finite", "give two numbers [n, t]");
+            return error_at("initial_traction", "initial_traction is not finite", "give two numbers [n, t]");
         }
         if !initial_gap.is_finite() {
-            return refuse("initial_gap", "initial_gap is not finite", "give a distance");
+            return error_at("initial_gap", "initial_gap is not finite", "give a distance");
         }
         let outside = match self {
             Law::Elastic(_) => f64::NEG_INFINITY,
@@ -181,18 +181,18 @@ impl Law {
         };
         if outside > ON_SURFACE * initial_traction.amax() {
             let (sigma, tau) = (initial_traction.x, initial_traction.y);
-            return refuse(
+            return error_at(
                 "initial_traction",
                 format!("initial_traction [{sigma}, {tau}] lies outside the strength by {outside:.3e}"),
                 "give a traction that the sound interface can carry",
             );
         }
         if initial_gap != 0.0 && !matches!(self, Law::Coulomb(_)) {
-            return refuse("initial_gap", "initial_gap is for coulomb only", "remove it or use that law");
+            return error_at("initial_gap", "initial_gap is for coulomb only", "remove it or use that law");
         }
         if initial_gap != 0.0 && initial_traction != Vector2::zeros() {
             let what = "an open gap carries no initial_traction, and an overlap has its own";
-            return refuse("initial_gap", what, "give one of the two");
+            return error_at("initial_gap", what, "give one of the two");
         }
         let stiffness = self.elastic_stiffness();
         let pressed = Vector2::new((stiffness[0] * initial_gap).min(0.0), 0.0);
@@ -228,7 +228,7 @@ impl Law {
             Law::Cracking(law) => law.excess_at(traction, fracture_work) - ON_SURFACE * law.cohesion,
         };
         if !jump.iter().chain(&jump_plastic).all(|component| component.is_finite()) || excess > rounding {
-            return refuse(
+            return error_at(
                 "initial",
                 format!("the traction [{}, {}] of the initial state is outside", traction.x, traction.y),
                 "give a state that the law can carry",
@@ -256,7 +256,7 @@ impl Law {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Integration,
+        integration: Integration,
     ) -> Result<Response, Unresolved> {
         if !(jump.x.is_finite() && jump.y.is_finite()) {
             return Err(Unresolved::NotFinite { jump });
@@ -264,7 +264,7 @@ impl Law {
         match self {
             Law::Elastic(law) => Ok(law.respond(jump, old)),
             Law::Coulomb(law) => Ok(law.respond(jump, old)),
-            Law::Cracking(law) => law.respond(jump, old, stepping),
+            Law::Cracking(law) => law.respond(jump, old, integration),
         }
     }
 }

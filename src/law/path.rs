@@ -23,7 +23,7 @@ use super::{Integration, Law, State, Strength};
 pub struct LawPath {
     /// Segments, one after the other.
     pub program: Vec<PathSegment>,
-    /// Where the point starts; by default sound, at rest, under the interface's initial traction.
+    /// Where the point starts; by default intact, at rest, under the interface's initial traction.
     #[serde(default)]
     pub initial: Option<Initial>,
 }
@@ -93,14 +93,14 @@ pub struct PathRow {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PathError {
     /// The path asks for something that cannot start.
-    #[error("{key}: {what}; {cure}")]
+    #[error("{key}: {what}; {help}")]
     Program {
         /// The key to blame, such as `program[1].n.start`.
         key: String,
         /// What is wrong.
         what: String,
         /// What would have been right.
-        cure: String,
+        help: String,
     },
     /// The law has no answer beyond some point.
     #[error("no equilibrium at s = {s:.6}: {reason}")]
@@ -130,13 +130,13 @@ pub fn drive(
     law: &Law,
     path: &LawPath,
     start: &State,
-    stepping: Integration,
+    integration: Integration,
 ) -> Result<Vec<PathRow>, PathError> {
     let mut state = match &path.initial {
         None => *start,
         Some(Initial { u_n, u_t, up_n, up_t, work }) => {
             law.state_at(Vector2::new(*u_n, *u_t), Vector2::new(*up_n, *up_t), *work).map_err(|refused| {
-                PathError::Program { key: "initial".into(), what: refused.what, cure: refused.cure }
+                PathError::Program { key: "initial".into(), what: refused.what, help: refused.help }
             })?
         }
     };
@@ -147,7 +147,7 @@ pub fn drive(
         segment.check(k, &state)?;
         for point in 0..segment.points {
             let at = |part: f64| segment.target((point as f64 + part) / segment.points as f64);
-            state = between_rows(law, &state, at, stepping, &mut length).map_err(|(part, reason)| {
+            state = between_rows(law, &state, at, integration, &mut length).map_err(|(part, reason)| {
                 let s = k as f64 + (point as f64 + part) / segment.points as f64;
                 PathError::NoEquilibrium { s, reason, rows: rows.clone() }
             })?;
@@ -189,11 +189,11 @@ impl PathSegment {
 
     /// The segment must have points, finite values, and begin where the point is.
     fn check(&self, k: usize, state: &State) -> Result<(), PathError> {
-        let refuse = |key: &str, what: String, cure: &str| {
-            Err(PathError::Program { key: format!("program[{k}].{key}"), what, cure: cure.into() })
+        let error_at = |key: &str, what: String, help: &str| {
+            Err(PathError::Program { key: format!("program[{k}].{key}"), what, help: help.into() })
         };
         if self.points == 0 {
-            return refuse("points", "0 points".into(), "it must be 1 or more");
+            return error_at("points", "0 points".into(), "it must be 1 or more");
         }
         for (i, (name, control)) in [("n", self.n), ("t", self.t)].into_iter().enumerate() {
             let reached = match control.control {
@@ -201,11 +201,11 @@ impl PathSegment {
                 Controlled::Stress => state.traction[i],
             };
             if !(control.start.is_finite() && control.end.is_finite()) {
-                return refuse(&format!("{name}.end"), "not a finite number".into(), "give a number");
+                return error_at(&format!("{name}.end"), "not a finite number".into(), "give a number");
             }
             let size = control.start.abs().max(control.end.abs()).max(reached.abs());
             if (control.start - reached).abs() > JOINT * size {
-                return refuse(
+                return error_at(
                     &format!("{name}.start"),
                     format!("{:e}, but the point is at {reached:e} there", control.start),
                     "begin where the segment before ends, or at the initial state",
@@ -221,11 +221,11 @@ fn between_rows(
     law: &Law,
     from: &State,
     at: impl Fn(f64) -> [Prescribed; 2],
-    stepping: Integration,
+    integration: Integration,
     length: &mut f64,
 ) -> Result<State, (f64, String)> {
     let straight = at(1.0).iter().all(|target| matches!(target, Prescribed::Jump(_)));
-    let (tolerance, strength) = match (law, stepping) {
+    let (tolerance, strength) = match (law, integration) {
         (Law::Cracking(law), Integration::Tolerance(tolerance)) if !straight => (tolerance, law),
         (_, Integration::BackwardEuler(steps)) if !straight => {
             let mut state = *from;
@@ -236,7 +236,7 @@ fn between_rows(
             }
             return Ok(state);
         }
-        _ => return balance(law, from, at(1.0), stepping).map_err(|reason| (1.0, reason)),
+        _ => return balance(law, from, at(1.0), integration).map_err(|reason| (1.0, reason)),
     };
 
     let bound = strength.local_bound(tolerance).max(ROUNDING * strength.cohesion);
@@ -245,7 +245,7 @@ fn between_rows(
     while done < 1.0 {
         let part = length.min(1.0 - done);
         let end = if part >= 1.0 - done { 1.0 } else { done + part };
-        let go = |from: &State, to: f64| balance(law, from, at(to), stepping);
+        let go = |from: &State, to: f64| balance(law, from, at(to), integration);
         let whole = go(&state, end);
         let halves = go(&state, 0.5 * (done + end)).and_then(|middle| go(&middle, end));
         let ratio = match (&whole, &halves) {

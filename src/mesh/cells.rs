@@ -34,7 +34,7 @@ pub(super) fn orient(cells: &mut Cells, points: &[[f64; 2]], tags: &[u64]) -> Re
         let probes = SHAPES.iter().position(|&s| s == shape).map_or(&[][..], |s| probes[s].as_slice());
         // written so that a Jacobian that is not a number is refused as well
         if !probes.iter().all(|probe| jacobian(probe, x) > size) {
-            return Err(refuse(shape, tags[c], x));
+            return Err(error_at(shape, tags[c], x));
         }
     }
     Ok(())
@@ -91,14 +91,14 @@ fn reverse(shape: Shape, nodes: &mut [usize]) {
     }
 }
 
-fn refuse(shape: Shape, tag: u64, x: &[[f64; 2]]) -> MeshFault {
+fn error_at(shape: Shape, tag: u64, x: &[[f64; 2]]) -> MeshFault {
     let corners = shape.corners();
     let size = FLAT * squared_diameter(x);
     let turn = |i: usize| doubled_area(&[x[(i + corners - 1) % corners], x[i], x[(i + 1) % corners]]);
     let vanishes = |area: f64| area.is_nan() || area <= size;
     let label = shape.label();
     let at = format!("near {}, {}", x[0][0], x[0][1]);
-    let (what, cure) = if vanishes(doubled_area(&x[..corners])) {
+    let (what, help) = if vanishes(doubled_area(&x[..corners])) {
         (
             format!("element {tag} ({label}) {at} has no area"),
             "look for coincident points or curves in the .geo",
@@ -116,7 +116,7 @@ fn refuse(shape: Shape, tag: u64, x: &[[f64; 2]]) -> MeshFault {
             "use a finer mesh or Mesh.HighOrderOptimize = 1",
         )
     };
-    MeshFault { what, cure: cure.into() }
+    MeshFault { what, help: help.into() }
 }
 
 #[cfg(test)]

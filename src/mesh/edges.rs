@@ -1,6 +1,6 @@
 //! The edges of all cells, to find the cell beside an edge of a physical curve.
 //!
-//! Every counter-clockwise cell walks its edges with itself on the left, so that in a sound mesh each directed edge
+//! Every counter-clockwise cell walks its edges with itself on the left, so that in an intact mesh each directed edge
 //! start → end occurs once. They are kept in compressed rows by start: flat arrays, time linear in the mesh.
 
 use super::msh::MeshFault;
@@ -20,7 +20,7 @@ impl EdgeTable {
         if cells.len() > (u32::MAX / 4) as usize {
             return Err(MeshFault {
                 what: format!("has {} cells", cells.len()),
-                cure: "use a coarser mesh".into(),
+                help: "use a coarser mesh".into(),
             });
         }
         let mut rows = vec![0_u32; points + 2];
@@ -43,7 +43,7 @@ impl EdgeTable {
                 let [a, b] = [pair[0][1], pair[1][1]].map(|c| tags[c as usize]);
                 return Err(MeshFault {
                     what: format!("elements {a} and {b} lie on the same side of one edge: they overlap"),
-                    cure: "look for surfaces that cover each other in the .geo".into(),
+                    help: "look for surfaces that cover each other in the .geo".into(),
                 });
             }
         }
@@ -94,7 +94,7 @@ impl EdgeTable {
                             "elements {} and {} share an edge but not its mid-node",
                             tags[c], tags[other]
                         ),
-                        cure: "mesh the whole body with one Mesh.ElementOrder".into(),
+                        help: "mesh the whole body with one Mesh.ElementOrder".into(),
                     });
                 }
             }

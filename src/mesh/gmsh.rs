@@ -181,8 +181,8 @@ impl Gmsh {
         }
     }
 
-    fn broken(&self, what: String, cure: &str) -> Error {
-        Error::Program { program: self.program.display().to_string(), what, cure: cure.into() }
+    fn broken(&self, what: String, help: &str) -> Error {
+        Error::Program { program: self.program.display().to_string(), what, help: help.into() }
     }
 }
 
@@ -221,8 +221,8 @@ impl Task<'_> {
 /// A failure of the program, told of a file.
 fn of_file(file: &Path, error: Error) -> Error {
     match error {
-        Error::Program { program, what, cure } => {
-            Error::Program { program: file.display().to_string(), what: format!("{program} {what}"), cure }
+        Error::Program { program, what, help } => {
+            Error::Program { program: file.display().to_string(), what: format!("{program} {what}"), help }
         }
         other => other,
     }

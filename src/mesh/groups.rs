@@ -40,7 +40,7 @@ pub(super) fn gather(
         let group = clash(&content.declared, i).map_or(group, Err);
         // a group with a fault is no reason to refuse a mesh whose scene does not name it
         let kind = KINDS[declared.dim];
-        let group = group.unwrap_or_else(|MeshFault { what, cure }| Group::Unusable { kind, what, cure });
+        let group = group.unwrap_or_else(|MeshFault { what, help }| Group::Unusable { kind, what, help });
         match groups.get_mut(&declared.name) {
             None => drop(groups.insert(declared.name.clone(), group)),
             Some(Group::Namesakes(all)) => all.push(group),
@@ -60,14 +60,14 @@ fn clash(declared: &[Declared], group: usize) -> Option<MeshFault> {
         let [first, second] = if i < group { [other, one] } else { [one, other] };
         return Some(MeshFault {
             what: format!("{} and {} are both called \"{}\"", title(first), title(second), one.name),
-            cure: "give each physical group a name of its own".into(),
+            help: "give each physical group a name of its own".into(),
         });
     }
     others().find(|(_, other)| other.tag == one.tag).map(|(i, other)| {
         let [first, second] = if i < group { [other, one] } else { [one, other] };
         MeshFault {
             what: format!("{} is called \"{}\" and \"{}\"", title(one), first.name, second.name),
-            cure: "give each physical group one name".into(),
+            help: "give each physical group one name".into(),
         }
     })
 }
@@ -124,7 +124,7 @@ fn curve(
                     "element {tag} of curve \"{}\" and element {} beside it do not have the same mid-node",
                     group.name, content.tags[2][found.cell]
                 ),
-                cure: "mesh the whole body with one Mesh.ElementOrder".into(),
+                help: "mesh the whole body with one Mesh.ElementOrder".into(),
             });
         }
         keys.push(([start.min(end), start.max(end)], tag));
@@ -141,7 +141,7 @@ fn loose(group: &Declared, what: &str) -> MeshFault {
     let kind = KINDS[group.dim];
     MeshFault {
         what: format!("physical {kind} \"{}\": {what} lies on no cell", group.name),
-        cure: format!(
+        help: format!(
             "a physical {kind} must belong to a meshed surface (in a Physical Surface, embedded if inside)"
         ),
     }
@@ -150,6 +150,6 @@ fn loose(group: &Declared, what: &str) -> MeshFault {
 fn twice(group: &Declared, what: &str) -> MeshFault {
     MeshFault {
         what: format!("physical {} \"{}\" holds {what} twice", KINDS[group.dim], group.name),
-        cure: "list each point and curve once, and no two that coincide".into(),
+        help: "list each point and curve once, and no two that coincide".into(),
     }
 }

@@ -80,7 +80,7 @@ pub enum Group {
         /// The fault, naming the group.
         what: String,
         /// The way out.
-        cure: String,
+        help: String,
     },
 }
 

@@ -47,10 +47,10 @@ impl Mesh {
     }
 }
 
-/// The edges of the cells; a sound mesh has no faults, but a file is no place to rely on that.
+/// The edges of the cells; an intact mesh has no faults, but a file is no place to rely on that.
 pub(super) fn table(mesh: &Mesh, cells: &Cells, points: usize) -> Result<EdgeTable> {
     let tags: Vec<u64> = (1..=cells.len() as u64).collect();
-    EdgeTable::new(cells, points, &tags).map_err(|fault| Error::mesh(&mesh.file, fault.what, fault.cure))
+    EdgeTable::new(cells, points, &tags).map_err(|fault| Error::mesh(&mesh.file, fault.what, fault.help))
 }
 
 /// The members that are in the part, with their new numbers, ascending.

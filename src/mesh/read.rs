@@ -45,7 +45,7 @@ pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Mesh> {
 }
 
 fn at(path: &Path) -> impl Fn(MeshFault) -> Error {
-    move |fault| Error::mesh(path, fault.what, fault.cure)
+    move |fault| Error::mesh(path, fault.what, fault.help)
 }
 
 fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, MeshFault> {
@@ -75,7 +75,7 @@ fn on_plane(content: &Content) -> std::result::Result<(), MeshFault> {
     if z > ON_PLANE * extent {
         return Err(MeshFault {
             what: format!("node {tag} is off the plane, |z| = {z:e}"),
-            cure: "all points of a plane mesh have z = 0".into(),
+            help: "all points of a plane mesh have z = 0".into(),
         });
     }
     Ok(())

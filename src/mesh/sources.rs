@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, Result, name_cure};
+use crate::error::{Error, Result, name_help};
 
 /// A .geo file with everything it reads.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ impl Sources {
     /// Refuses a parameter that this .geo would not listen to.
     pub(super) fn accepts(&self, geo: &Path, parameter: &str) -> Result<()> {
         let has = |names: &[String]| names.iter().any(|name| name == parameter);
-        let declared = || name_cure(parameter, self.declared.iter().map(|(name, _)| name.as_str()));
+        let declared = || name_help(parameter, self.declared.iter().map(|(name, _)| name.as_str()));
         let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         if parameter.is_empty() || !parameter.chars().all(word) || !has(&self.mentioned) {
             return Err(Error::mesh(

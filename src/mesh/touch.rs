@@ -32,7 +32,7 @@ const TOGETHER: f64 = 1e-6;
 #[derive(Debug, Clone)]
 pub struct Touch {
     /// The two bodies.
-    pub bodies: [usize; 2],
+    pub subdomains: [usize; 2],
     /// Their edges there, each once.
     pub edges: [Vec<Edge>; 2],
     /// The length that they share [length].
@@ -44,7 +44,7 @@ pub struct Touch {
 /// A boundary edge as a straight line.
 #[derive(Debug, Clone, Copy)]
 struct BoundaryLine {
-    body: usize,
+    subdomain: usize,
     edge: Edge,
     ends: [[f64; 2]; 2],
     tangent: [f64; 2],
@@ -77,7 +77,7 @@ type EndNodes = [[Option<usize>; 2]; 2];
 /// An end of a shared length, sorted so that what ends at one node stands together.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct LengthEnd {
-    bodies: [usize; 2],
+    subdomains: [usize; 2],
     side: usize,
     node: usize,
     shared: usize,
@@ -93,8 +93,9 @@ pub fn touching(
 ) -> Result<Vec<Touch>> {
     let different = |pair: [usize; 2], edges: [&Edge; 2]| pair[0] != pair[1] && wanted(pair, edges);
     let lines = within_reach(all_lines(meshes)?);
-    let shared =
-        shared(&lines, &|[a, b]| different([lines[a].body, lines[b].body], [&lines[a].edge, &lines[b].edge]));
+    let shared = shared(&lines, &|[a, b]| {
+        different([lines[a].subdomain, lines[b].subdomain], [&lines[a].edge, &lines[b].edge])
+    });
     Ok(gather(&lines, &shared))
 }
 
@@ -106,7 +107,7 @@ pub fn coinciding(
 ) -> Result<Vec<Touch>> {
     let lines = all_lines(meshes)?.concat(); // by body, so that the first of two is of the first body
     let shared = shared(&lines, &|[a, b]| {
-        a < b && wanted([lines[a].body, lines[b].body], [&lines[a].edge, &lines[b].edge])
+        a < b && wanted([lines[a].subdomain, lines[b].subdomain], [&lines[a].edge, &lines[b].edge])
     });
     Ok(gather(&lines, &shared))
 }
@@ -143,24 +144,24 @@ impl RTreeObject for Numbered {
 }
 
 /// The lines of all bodies that reach into the box around another body.
-fn within_reach(bodies: Vec<Vec<BoundaryLine>>) -> Vec<BoundaryLine> {
+fn within_reach(subdomains: Vec<Vec<BoundaryLine>>) -> Vec<BoundaryLine> {
     let around = |lines: &Vec<BoundaryLine>| {
         let boxes = lines.iter().map(BoundaryLine::surroundings);
         boxes.fold(AABB::new_empty(), |all: AABB<[f64; 2]>, one| all.merged(&one))
     };
-    let boxes: Vec<AABB<[f64; 2]>> = bodies.iter().map(around).collect();
-    let mut near = bodies.concat();
+    let boxes: Vec<AABB<[f64; 2]>> = subdomains.iter().map(around).collect();
+    let mut near = subdomains.concat();
     near.retain(|line| {
         let own = line.surroundings();
-        (0..boxes.len()).any(|body| body != line.body && boxes[body].intersects(&own))
+        (0..boxes.len()).any(|subdomain| subdomain != line.subdomain && boxes[subdomain].intersects(&own))
     });
     near
 }
 
 /// The boundary of a body, with the reach of every edge.
-fn lines(body: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
+fn lines(subdomain: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
     let mut lines: Vec<BoundaryLine> =
-        mesh.boundary()?.into_iter().map(|edge| BoundaryLine::new(body, mesh, edge)).collect();
+        mesh.boundary()?.into_iter().map(|edge| BoundaryLine::new(subdomain, mesh, edge)).collect();
     let mut starting: HashMap<usize, usize> = HashMap::new();
     for (i, line) in lines.iter().enumerate() {
         starting.insert(line.edge.nodes[0], i);
@@ -180,11 +181,18 @@ fn lines(body: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
 }
 
 impl BoundaryLine {
-    fn new(body: usize, mesh: &Mesh, edge: Edge) -> BoundaryLine {
+    fn new(subdomain: usize, mesh: &Mesh, edge: Edge) -> BoundaryLine {
         let ends = [0, 1].map(|i| mesh.points[edge.nodes[i]]);
         let along = minus(ends[1], ends[0]);
         let length = along[0].hypot(along[1]);
-        BoundaryLine { body, edge, ends, tangent: along.map(|x| x / length), length, reach: NEAR * length }
+        BoundaryLine {
+            subdomain,
+            edge,
+            ends,
+            tangent: along.map(|x| x / length),
+            length,
+            reach: NEAR * length,
+        }
     }
 
     /// The box around it that its reach fills.
@@ -234,21 +242,21 @@ impl BoundaryLine {
 
 /// Connects shared lengths that follow each other on both bodies, and sorts what comes out.
 fn gather(lines: &[BoundaryLine], shared: &[SharedLength]) -> Vec<Touch> {
-    let pair = |i: usize| shared[i].lines.map(|line| lines[line].body);
+    let pair = |i: usize| shared[i].lines.map(|line| lines[line].subdomain);
     // every end under the node of either side that ends it: whatever follows ends there as well
     let mut ends: Vec<LengthEnd> = Vec::new();
     for i in 0..shared.len() {
         for end in shared[i].part.ends {
             for side in 0..2 {
                 if let Some(node) = end[side] {
-                    ends.push(LengthEnd { bodies: pair(i), side, node, shared: i, other: end[1 - side] });
+                    ends.push(LengthEnd { subdomains: pair(i), side, node, shared: i, other: end[1 - side] });
                 }
             }
         }
     }
     ends.sort_unstable();
     let mut root: Vec<usize> = (0..shared.len()).collect();
-    for run in ends.chunk_by(|p, q| (p.bodies, p.side, p.node) == (q.bodies, q.side, q.node)) {
+    for run in ends.chunk_by(|p, q| (p.subdomains, p.side, p.node) == (q.subdomains, q.side, q.node)) {
         for (k, one) in run.iter().enumerate() {
             for two in &run[k + 1..] {
                 let across = |end: &LengthEnd| shared[end.shared].lines[1 - end.side];
@@ -274,7 +282,7 @@ fn gather(lines: &[BoundaryLine], shared: &[SharedLength]) -> Vec<Touch> {
     let size = extent(lines);
     let rounded = |x: [f64; 2]| x.map(|x| (x / (TOGETHER * size)).round() as i64); // the order of equal places is no accident
     found.sort_by_key(|(pair, low, piece)| (*pair, rounded(*low), piece[0]));
-    let touch = |(bodies, _, piece): ([usize; 2], [f64; 2], Vec<usize>)| {
+    let touch = |(subdomains, _, piece): ([usize; 2], [f64; 2], Vec<usize>)| {
         let edges = [0, 1].map(|side| {
             let mut of_side: Vec<usize> = piece.iter().map(|&i| shared[i].lines[side]).collect();
             of_side.sort_unstable();
@@ -282,7 +290,7 @@ fn gather(lines: &[BoundaryLine], shared: &[SharedLength]) -> Vec<Touch> {
             of_side.into_iter().map(|line| lines[line].edge).collect()
         });
         let (length, middle) = middle(piece.iter().map(|&i| &shared[i].part));
-        Touch { bodies, edges, length, middle }
+        Touch { subdomains, edges, length, middle }
     };
     found.into_iter().map(touch).collect()
 }

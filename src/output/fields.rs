@@ -1,19 +1,19 @@
-//! Bodies and joints as VTU grids.
+//! Bodies and interfaces as VTU grids.
 
 use super::Snapshot;
 use super::vtu::{Array, Data, VtuGrid};
-use crate::assembly::{Body, Joint, Model};
+use crate::assembly::{Body, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
 use crate::law;
 
 /// A body: displacement, stress at points and cells, principal stress.
-pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
-    let body = &model.bodies[index];
+pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
+    let subdomain = &model.subdomains[index];
     let u = &snapshot.u[model.dofs_of(index)];
     let stresses = &snapshot.stresses[index];
     let full = |s: &[f64; 4]| [s[0], s[1], s[2], s[3], 0.0, 0.0]; // xx yy zz xy yz xz
-    let mut grid = mesh(body);
+    let mut grid = mesh(subdomain);
     grid.time = time;
     grid.point_data = vec![
         Array::float("displacement", 3, u.chunks_exact(2).flat_map(|u| [u[0], u[1], 0.0])),
@@ -26,10 +26,10 @@ pub(super) fn body(model: &Model, index: usize, snapshot: &Snapshot, time: f64) 
     grid
 }
 
-pub(super) fn mesh(body: &Body) -> VtuGrid {
-    let cells = &body.mesh.cells;
+pub(super) fn mesh(subdomain: &Body) -> VtuGrid {
+    let cells = &subdomain.mesh.cells;
     VtuGrid {
-        points: body.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),
+        points: subdomain.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),
         connectivity: cells.nodes.iter().map(|&node| node as i64).collect(),
         offsets: cells.offsets[1..].iter().map(|&end| end as i64).collect(),
         types: cells.shapes.iter().map(|shape| shape.vtk()).collect(),
@@ -37,14 +37,19 @@ pub(super) fn mesh(body: &Body) -> VtuGrid {
     }
 }
 
-/// The law points of a joint in order along C, joined by lines.
-pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
-    let points = &joint.coupling.points;
+/// The law points of an interface in order along C, joined by lines.
+pub(super) fn interface(
+    interface: &InterfaceOperator,
+    index: usize,
+    snapshot: &Snapshot,
+    time: f64,
+) -> VtuGrid {
+    let points = &interface.coupling.points;
     let n = points.len();
     // no line from one part of C to another that lies elsewhere
     let apart = |piece: &&Piece| !piece.follows && piece.segments.start > 0;
-    let segments = &joint.coupling.midplane.segments;
-    let breaks: Vec<f64> = joint
+    let segments = &interface.coupling.midplane.segments;
+    let breaks: Vec<f64> = interface
         .coupling
         .midplane
         .pieces
@@ -80,12 +85,12 @@ pub(super) fn joint(joint: &Joint, index: usize, snapshot: &Snapshot, time: f64)
     }
 }
 
-/// The geometry of a joint, to look at: segments (`kind` 0) and grid cells (`kind` 1) as lines on C, with their parent
+/// The geometry of an interface, to look at: segments (`kind` 0) and grid cells (`kind` 1) as lines on C, with their parent
 /// edges on both chains (−1 for grid cells) and the arc length at every point.
-pub(super) fn midplane(joint: &Joint) -> VtuGrid {
-    let midplane = &joint.coupling.midplane;
+pub(super) fn midplane(interface: &InterfaceOperator) -> VtuGrid {
+    let midplane = &interface.coupling.midplane;
     let segments = midplane.segments.iter().map(|g| (g.start, g.end, 0, g.edge_a as i64, g.edge_b as i64));
-    let cells = joint.coupling.grid.windows(2).filter(|pair| pair[1] > pair[0]);
+    let cells = interface.coupling.grid.windows(2).filter(|pair| pair[1] > pair[0]);
     let cells = cells.map(|pair| (pair[0], pair[1], 1, -1, -1));
     let lines: Vec<(f64, f64, i64, i64, i64)> = segments.chain(cells).collect();
     let ends: Vec<f64> = lines.iter().flat_map(|line| [line.0, line.1]).collect();

@@ -1,11 +1,11 @@
-//! The geometry of the joints before anything is solved, as VTU to look at: `midplane check --plot`.
+//! The geometry of the interfaces before anything is solved, as VTU to look at: `midplane check --plot`.
 
 use std::path::{Path, PathBuf};
 
 use super::earlier::remove_grids;
 use super::files::write_whole;
 use super::vtu::{Array, VtuGrid};
-use crate::assembly::{Body, Joint, Model};
+use crate::assembly::{Body, InterfaceOperator, Model};
 use crate::error::Result;
 
 /// What a line or point of the file is.
@@ -34,19 +34,19 @@ const TYPES: [u8; 3] = [1, 3, 4];
 /// parents and feet, grid, law points and normals into a folder, and returns it.
 pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
     remove_grids(folder)?;
-    for body in &model.bodies {
-        write_whole(&folder.join(format!("{}.vtu", body.name)), &quality(body).encode())?;
+    for subdomain in &model.subdomains {
+        write_whole(&folder.join(format!("{}.vtu", subdomain.name)), &quality(subdomain).encode())?;
     }
-    for joint in &model.joints {
-        write_whole(&folder.join(format!("{}.vtu", joint.name)), &geometry(joint).encode())?;
+    for interface in &model.interfaces {
+        write_whole(&folder.join(format!("{}.vtu", interface.name)), &geometry(interface).encode())?;
     }
     Ok(folder.to_path_buf())
 }
 
-fn quality(body: &Body) -> VtuGrid {
-    let mut grid = super::fields::mesh(body);
+fn quality(subdomain: &Body) -> VtuGrid {
+    let mut grid = super::fields::mesh(subdomain);
     grid.cell_data =
-        vec![Array::float("quality", 1, (0..body.mesh.cells.len()).map(|c| body.mesh.quality(c)))];
+        vec![Array::float("quality", 1, (0..subdomain.mesh.cells.len()).map(|c| subdomain.mesh.quality(c)))];
     grid
 }
 
@@ -81,8 +81,8 @@ impl Drawing {
     }
 }
 
-fn geometry(joint: &Joint) -> VtuGrid {
-    let coupling = &joint.coupling;
+fn geometry(interface: &InterfaceOperator) -> VtuGrid {
+    let coupling = &interface.coupling;
     let mut drawing = Drawing::default();
     for (side, kind) in [GeometryKind::EdgeA, GeometryKind::EdgeB].into_iter().enumerate() {
         for e in 0..coupling.edges(side) {

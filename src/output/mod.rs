@@ -26,10 +26,10 @@ pub struct Snapshot {
     pub u: Vec<f64>,
     /// Stresses of every body.
     pub stresses: Vec<Stresses>,
-    /// Jump (n, t) at the law points of every joint [length].
+    /// Jump (n, t) at the law points of every interface [length].
     pub jumps: Vec<Vec<[f64; 2]>>,
-    /// Traction (n, t) at the law points of every joint [stress].
+    /// Traction (n, t) at the law points of every interface [stress].
     pub tractions: Vec<Vec<[f64; 2]>>,
-    /// State of the law points of every joint; empty for an elastic one.
+    /// State of the law points of every interface; empty for an elastic one.
     pub states: Vec<Vec<law::State>>,
 }

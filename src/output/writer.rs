@@ -26,7 +26,7 @@ pub struct HistoryRow {
     pub step: String,
     /// Number of the increment over all steps, from 1.
     pub increment: usize,
-    /// Load level in the step, 0 to 1.
+    /// Load factor in the step, 0 to 1.
     pub load_factor: f64,
     /// Newton iterations; 0 where none was needed.
     pub iterations: usize,
@@ -52,26 +52,29 @@ impl Writer {
         Ok(Writer { folder: folder.into(), name: name.into(), collection: Vec::new(), history })
     }
 
-    /// Writes the geometry of every joint once.
+    /// Writes the geometry of every interface once.
     pub fn midplanes(&self, model: &Model) -> Result<()> {
-        for joint in &model.joints {
-            let path = self.folder.join("midplane").join(format!("{}.vtu", joint.name));
-            files::write_whole(&path, &fields::midplane(joint).encode())?;
+        for interface in &model.interfaces {
+            let path = self.folder.join("midplane").join(format!("{}.vtu", interface.name));
+            files::write_whole(&path, &fields::midplane(interface).encode())?;
         }
         Ok(())
     }
 
     /// Writes the fields of one state and lists them in the collection.
     pub fn fields(&mut self, model: &Model, snapshot: &Snapshot, number: usize, time: f64) -> Result<()> {
-        let names =
-            model.bodies.iter().map(|body| &body.name).chain(model.joints.iter().map(|joint| &joint.name));
+        let names = model
+            .subdomains
+            .iter()
+            .map(|subdomain| &subdomain.name)
+            .chain(model.interfaces.iter().map(|interface| &interface.name));
         let names: Vec<&String> = names.collect();
-        let bodies = model.bodies.len();
+        let subdomains = model.subdomains.len();
         names.par_iter().enumerate().try_for_each(|(i, name)| {
-            let grid = if i < bodies {
-                fields::body(model, i, snapshot, time)
+            let grid = if i < subdomains {
+                fields::subdomain(model, i, snapshot, time)
             } else {
-                fields::joint(&model.joints[i - bodies], i - bodies, snapshot, time)
+                fields::interface(&model.interfaces[i - subdomains], i - subdomains, snapshot, time)
             };
             files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
         })?;

@@ -31,15 +31,15 @@ impl JoinedEdges {
             for (curve, edge) in
                 curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
             {
-                self.edges.entry((curve.body, edge.nodes)).or_default().push((self.interfaces, side));
+                self.edges.entry((curve.subdomain, edge.nodes)).or_default().push((self.interfaces, side));
             }
         }
         self.interfaces += 1;
     }
 
     /// True if one interface has both edges, on different sides.
-    pub(super) fn both(&self, bodies: [usize; 2], edges: [&Edge; 2]) -> bool {
-        let of = |i: usize| self.edges.get(&(bodies[i], edges[i].nodes)).map_or(&[][..], Vec::as_slice);
+    pub(super) fn both(&self, subdomains: [usize; 2], edges: [&Edge; 2]) -> bool {
+        let of = |i: usize| self.edges.get(&(subdomains[i], edges[i].nodes)).map_or(&[][..], Vec::as_slice);
         of(0).iter().any(|one| of(1).iter().any(|two| one.0 == two.0 && one.1 != two.1))
     }
 }
@@ -48,38 +48,38 @@ impl JoinedEdges {
 pub(super) fn pairs<'a>(
     scene: &'a Scene,
     model: &Model,
-    (entry, interface): (&'a str, &'a Interface),
+    (entry, stated): (&'a str, &'a Interface),
     patterns: &[String; 2],
     taken: &JoinedEdges,
 ) -> Result<Vec<PlannedInterface<'a>>> {
     let fits: Vec<[bool; 2]> = scene.subdomains.keys().map(|name| fit(patterns, name)).collect();
-    let bodies: Vec<usize> = (0..fits.len()).filter(|&body| fits[body] != [false; 2]).collect();
-    let meshes: Vec<&Mesh> = bodies.iter().map(|&body| &model.bodies[body].mesh).collect();
+    let subdomains: Vec<usize> = (0..fits.len()).filter(|&subdomain| fits[subdomain] != [false; 2]).collect();
+    let meshes: Vec<&Mesh> = subdomains.iter().map(|&subdomain| &model.subdomains[subdomain].mesh).collect();
     let is_pair = |[a, b]: [usize; 2]| fits[a][0] && fits[b][1] && (a < b || !(fits[b][0] && fits[a][1]));
     let wanted = |pair: [usize; 2], edges: [&Edge; 2]| {
-        let pair = pair.map(|i| bodies[i]);
+        let pair = pair.map(|i| subdomains[i]);
         is_pair(pair) && !taken.both(pair, edges)
     };
     let touches = touching(&meshes, &wanted)?;
     if touches.is_empty() {
         let what = format!("no subdomain like \"{}\" touches another like \"{}\"", patterns[0], patterns[1]);
-        let cure = "boundaries touch where they lie on each other, up to a thousandth of an edge";
-        return Err(scene.source.refuse(&["interfaces", entry, "between"], what, cure));
+        let help = "boundaries touch where they lie on each other, up to a thousandth of an edge";
+        return Err(scene.source.error_at(&["interfaces", entry, "between"], what, help));
     }
     let mut plans = Vec::new();
-    for lines in touches.chunk_by(|one, two| one.bodies == two.bodies) {
+    for lines in touches.chunk_by(|one, two| one.subdomains == two.subdomains) {
         for (i, touch) in lines.iter().enumerate() {
-            let pair = touch.bodies.map(|body| bodies[body]);
-            let [a, b] = pair.map(|body| model.bodies[body].name.as_str());
+            let pair = touch.subdomains.map(|subdomain| subdomains[subdomain]);
+            let [a, b] = pair.map(|subdomain| model.subdomains[subdomain].name.as_str());
             let mut name = [entry, a, b].join(&JOINED.to_string());
             if lines.len() > 1 {
                 name.push_str(&format!("{JOINED}{}", i + 1));
             }
             let side = |i: usize, own: &str, other: &str| {
-                let (body, edges) = (pair[i], touch.edges[i].clone());
-                vec![Curve { body, name: format!("{own} where it touches {other}"), edges }]
+                let (subdomain, edges) = (pair[i], touch.edges[i].clone());
+                vec![Curve { subdomain, name: format!("{own} where it touches {other}"), edges }]
             };
-            plans.push(PlannedInterface { name, entry, interface, sides: [side(0, a, b), side(1, b, a)] });
+            plans.push(PlannedInterface { name, entry, stated, sides: [side(0, a, b), side(1, b, a)] });
         }
     }
     Ok(plans)

@@ -17,7 +17,7 @@ type EdgeKey = [usize; 2];
 
 /// What an interface takes of an edge.
 struct EdgeShare {
-    joint: usize,
+    interface: usize,
     from: f64,
     to: f64,
 }
@@ -28,29 +28,31 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
     for (nodes, of_edge) in &edges {
         let twice = of_edge
             .windows(2)
-            .find(|pair| pair[0].joint != pair[1].joint && pair[1].from < pair[0].to - MEETING);
+            .find(|pair| pair[0].interface != pair[1].interface && pair[1].from < pair[0].to - MEETING);
         if let Some([one, two]) = twice {
-            let (first, second) = (one.joint.min(two.joint), one.joint.max(two.joint));
-            let body = &model.bodies[model.bodies.partition_point(|body| body.first_node <= nodes[0]) - 1];
-            let [x, y] = body.mesh.points[nodes[0] - body.first_node];
-            let name = |joint: usize| &plans[joint].name;
-            let what = format!("{} and {} both join {} at ({x}, {y})", name(first), name(second), body.name);
-            let cure = "every place of a side belongs to one interface: name other curves or patterns";
-            return Err(scene.source.refuse(&["interfaces", plans[second].entry], what, cure));
+            let (first, second) = (one.interface.min(two.interface), one.interface.max(two.interface));
+            let subdomain = &model.subdomains
+                [model.subdomains.partition_point(|subdomain| subdomain.first_node <= nodes[0]) - 1];
+            let [x, y] = subdomain.mesh.points[nodes[0] - subdomain.first_node];
+            let name = |interface: usize| &plans[interface].name;
+            let what =
+                format!("{} and {} both join {} at ({x}, {y})", name(first), name(second), subdomain.name);
+            let help = "every place of a side belongs to one interface: name other curves or patterns";
+            return Err(scene.source.error_at(&["interfaces", plans[second].entry], what, help));
         }
     }
     let mut warnings = Vec::new();
-    for plan in plans.iter().filter(|plan| plan.interface.between.is_none()) {
+    for plan in plans.iter().filter(|plan| plan.stated.between.is_none()) {
         for (curves, label) in plan.sides.iter().zip(["A", "B"]) {
             let (mut whole, mut joined) = (0.0, 0.0);
             for (curve, edge) in
                 curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
             {
-                let body = &model.bodies[curve.body];
-                let [p, q] = [0, 1].map(|i| body.mesh.points[edge.nodes[i]]);
+                let subdomain = &model.subdomains[curve.subdomain];
+                let [p, q] = [0, 1].map(|i| subdomain.mesh.points[edge.nodes[i]]);
                 let length = (q[0] - p[0]).hypot(q[1] - p[1]);
                 whole += length;
-                let of_edge = edges.get(&ordered([0, 1].map(|i| body.first_node + edge.nodes[i])));
+                let of_edge = edges.get(&ordered([0, 1].map(|i| subdomain.first_node + edge.nodes[i])));
                 joined +=
                     length * of_edge.into_iter().flatten().map(|taken| taken.to - taken.from).sum::<f64>();
             }
@@ -59,24 +61,24 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
                 let what = format!(
                     "interface {name}: {share:.4} % of side {label} is joined (length {length:.6}), the rest faces nothing"
                 );
-                let cure = "fine if it is meant; else move the sides or name the right curves";
-                warnings.push(Warning::new(Code::PartlyJoined, what, cure));
+                let help = "fine if it is meant; else move the sides or name the right curves";
+                warnings.push(Warning::new(Code::PartlyJoined, what, help));
             }
         }
     }
     Ok(warnings)
 }
 
-/// What the joints take of every edge, in order along it.
+/// What the interfaces take of every edge, in order along it.
 fn taken(model: &Model) -> BTreeMap<EdgeKey, Vec<EdgeShare>> {
     let mut edges: BTreeMap<EdgeKey, Vec<EdgeShare>> = BTreeMap::new();
-    for (joint, of_model) in model.joints.iter().enumerate() {
+    for (interface, of_model) in model.interfaces.iter().enumerate() {
         for share in of_model.coupling.shares() {
             for side in 0..2 {
                 let nodes = of_model.coupling.nodes(side, share.edges[side]);
                 let [start, end] = share.taken[side];
                 let (from, to) = if nodes[0] < nodes[1] { (start, end) } else { (1.0 - end, 1.0 - start) };
-                edges.entry(ordered(nodes)).or_default().push(EdgeShare { joint, from, to });
+                edges.entry(ordered(nodes)).or_default().push(EdgeShare { interface, from, to });
             }
         }
     }

@@ -1,9 +1,9 @@
-//! An interface to be: the curves of its sides, and how they become a joint.
+//! An interface to be: the curves of its sides, and how they become an interface.
 
 use std::collections::HashMap;
 
 use super::groups;
-use crate::assembly::{Joint, Model};
+use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use crate::error::Result;
 use crate::mesh::Edge;
@@ -16,7 +16,7 @@ pub(super) struct PlannedInterface<'a> {
     /// Its key in the scene's `interfaces`.
     pub entry: &'a str,
     /// What the scene says of it.
-    pub interface: &'a Interface,
+    pub stated: &'a Interface,
     /// Curves of sides A and B.
     pub sides: [Vec<Curve>; 2],
 }
@@ -24,7 +24,7 @@ pub(super) struct PlannedInterface<'a> {
 /// A curve of a side.
 pub(super) struct Curve {
     /// Number of its body.
-    pub body: usize,
+    pub subdomain: usize,
     /// How messages call it.
     pub name: String,
     /// Its edges.
@@ -43,51 +43,52 @@ pub(super) fn side(
     let mut curves = Vec::new();
     let mut owner: HashMap<(usize, usize, usize), &str> = HashMap::new();
     for group in names.names() {
-        let (body, edges) = groups::curve(scene, model, &path, group)?;
+        let (subdomain, edges) = groups::curve(scene, model, &path, group)?;
         for edge in edges {
-            if let Some(other) = owner.insert((body, edge.nodes[0], edge.nodes[1]), group) {
-                let [x, y] = model.bodies[body].mesh.points[edge.nodes[0]];
+            if let Some(other) = owner.insert((subdomain, edge.nodes[0], edge.nodes[1]), group) {
+                let [x, y] = model.subdomains[subdomain].mesh.points[edge.nodes[0]];
                 let what = format!("\"{other}\" and \"{group}\" hold the same edge, at ({x}, {y})");
-                return Err(scene.source.refuse(&path, what, "name every edge of a side once"));
+                return Err(scene.source.error_at(&path, what, "name every edge of a side once"));
             }
         }
-        curves.push(Curve { body, name: group.clone(), edges: edges.to_vec() });
+        curves.push(Curve { subdomain, name: group.clone(), edges: edges.to_vec() });
     }
     Ok(curves)
 }
 
 impl PlannedInterface<'_> {
-    /// Builds the joint.
-    pub(super) fn join(&self, model: &Model) -> Result<Joint> {
+    /// Builds the interface.
+    pub(super) fn join(&self, model: &Model) -> Result<InterfaceOperator> {
         let sides: [Vec<Side>; 2] = [0, 1].map(|i| {
             let curves = self.sides[i].iter().map(|curve| {
-                let (mesh, first) = (&model.bodies[curve.body].mesh, model.bodies[curve.body].first_node);
+                let (mesh, first) =
+                    (&model.subdomains[curve.subdomain].mesh, model.subdomains[curve.subdomain].first_node);
                 let (name, edges) = (curve.name.as_str(), curve.edges.as_slice());
                 Side { name, points: &mesh.points, edges, corners: &mesh.corners, first }
             });
             curves.collect()
         });
         let quadrilaterals = || self.sides.iter().flatten().all(|curve| on_quadrilaterals(model, curve));
-        let kind = match (self.interface.coupling, self.interface.grid) {
+        let kind = match (self.stated.coupling, self.stated.grid) {
             (CouplingKind::Pointwise, _) => JumpScheme::Pointwise,
             (_, Grid::Quadratic) => JumpScheme::Projected,
             (_, Grid::Auto) if quadrilaterals() => JumpScheme::Projected,
             (_, Grid::Auto | Grid::Linear) => JumpScheme::ProjectedLinear,
         };
-        let points = match self.interface.quadrature {
+        let points = match self.stated.quadrature {
             Quadrature::Gauss => Points::Gauss,
             Quadrature::Lobatto => Points::Lobatto,
         };
-        let gap = if self.interface.initial_gap.is_some() { Gap::Open } else { Gap::Closed };
+        let gap = if self.stated.initial_gap.is_some() { Gap::Open } else { Gap::Closed };
         let coupling = Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap })?;
-        let bodies = [0, 1].map(|i| self.sides[i][0].body);
+        let subdomains = [0, 1].map(|i| self.sides[i][0].subdomain);
         // the coupling's nodes are those of the model
-        Ok(Joint::new(&self.name, coupling, bodies, [0, 0], model.dofs(), model.thickness))
+        Ok(InterfaceOperator::new(&self.name, coupling, subdomains, [0, 0], model.dofs(), model.thickness))
     }
 }
 
 /// True if all cells along a curve are quadrilaterals.
 fn on_quadrilaterals(model: &Model, curve: &Curve) -> bool {
-    let shapes = &model.bodies[curve.body].mesh.cells.shapes;
+    let shapes = &model.subdomains[curve.subdomain].mesh.cells.shapes;
     curve.edges.iter().all(|edge| shapes[edge.cell].corners() == 4)
 }

@@ -1,9 +1,9 @@
-//! Initial gaps at the law points of a joint.
+//! Initial gaps at the law points of an interface.
 
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 use crate::scene::InitialGap;
 
-/// Initial gap of a joint: the normal jump, with its sign turned, at which the faces meet; negative for faces that overlap
+/// Initial gap of an interface: the normal jump, with its sign turned, at which the faces meet; negative for faces that overlap
 /// and are pressed apart [length].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gaps {
@@ -22,13 +22,13 @@ impl Gaps {
         }
     }
 
-    /// What the scene says, on the geometry of a joint; without a word the faces touch.
-    pub(super) fn new(gap: Option<InitialGap>, joint: &Joint) -> Gaps {
+    /// What the scene says, on the geometry of an interface; without a word the faces touch.
+    pub(super) fn new(gap: Option<InitialGap>, interface: &InterfaceOperator) -> Gaps {
         match gap {
             None => Gaps::Uniform(0.0),
             Some(InitialGap::Uniform(gap)) => Gaps::Uniform(gap),
             Some(InitialGap::Drawn(_)) => {
-                Gaps::Varying(joint.coupling.points.iter().map(|point| point.gap).collect())
+                Gaps::Varying(interface.coupling.points.iter().map(|point| point.gap).collect())
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Names to groups, with an error that lists what there is.
 
 use crate::assembly::Model;
-use crate::error::{Error, Result, name_cure};
+use crate::error::{Error, Result, name_help};
 use crate::mesh::{Edge, Group};
 use crate::scene::{Scene, Subdomain, split_group};
 
@@ -16,9 +16,11 @@ pub(super) fn find<'a>(
         (_, Some(Group::Namesakes(all))) => {
             let kinds: Vec<&str> = all.iter().map(Group::kind).collect();
             let what = format!("\"{name}\" is the name of a {}", kinds.join(" and of a "));
-            Err(scene.source.refuse(path, what, "give each physical group a name of its own"))
+            Err(scene.source.error_at(path, what, "give each physical group a name of its own"))
         }
-        (body, Some(fault @ Group::Unusable { .. })) => Err(refusal(scene, path, (body, name), fault)),
+        (subdomain, Some(fault @ Group::Unusable { .. })) => {
+            Err(refusal(scene, path, (subdomain, name), fault))
+        }
         found => Ok(found),
     }
 }
@@ -32,34 +34,39 @@ fn named<'a>(
 ) -> Result<(usize, Option<&'a Group>)> {
     let (subdomain, group) = split_group(name);
     // the scene's door has checked that the subdomain exists
-    let body = scene.subdomains.get_index_of(subdomain).unwrap_or(0);
+    let subdomain = scene.subdomains.get_index_of(subdomain).unwrap_or(0);
     let Some(group) = group else {
-        return Ok((body, None));
+        return Ok((subdomain, None));
     };
-    let mesh = &model.bodies[body].mesh;
+    let mesh = &model.subdomains[subdomain].mesh;
     match mesh.groups.get(group) {
-        Some(found) => Ok((body, Some(found))),
+        Some(found) => Ok((subdomain, Some(found))),
         None => {
-            let subdomain = &scene.subdomains[body];
+            let subdomain = &scene.subdomains[subdomain];
             let file = file(subdomain);
             let place = match &subdomain.surface {
                 Some(surface) => format!("on surface \"{surface}\" of {file}"),
                 None => format!("in {file}"),
             };
-            let cure = name_cure(group, mesh.groups.keys().map(String::as_str));
-            Err(scene.source.refuse(path, format!("no group \"{group}\" {place}"), cure))
+            let help = name_help(group, mesh.groups.keys().map(String::as_str));
+            Err(scene.source.error_at(path, format!("no group \"{group}\" {place}"), help))
         }
     }
 }
 
 /// The refusal of a group, of a body, that is no use.
-pub(super) fn refusal(scene: &Scene, path: &[&str], (body, name): (usize, &str), group: &Group) -> Error {
+pub(super) fn refusal(
+    scene: &Scene,
+    path: &[&str],
+    (subdomain, name): (usize, &str),
+    group: &Group,
+) -> Error {
     match group {
-        Group::Unusable { what, cure, .. } => {
-            let what = format!("\"{name}\" is no use: {what} in {}", file(&scene.subdomains[body]));
-            scene.source.refuse(path, what, cure.clone())
+        Group::Unusable { what, help, .. } => {
+            let what = format!("\"{name}\" is no use: {what} in {}", file(&scene.subdomains[subdomain]));
+            scene.source.error_at(path, what, help.clone())
         }
-        other => scene.source.refuse(path, format!("\"{name}\" is a {}", other.kind()), "name another"),
+        other => scene.source.error_at(path, format!("\"{name}\" is a {}", other.kind()), "name another"),
     }
 }
 
@@ -75,20 +82,20 @@ pub(super) fn curve<'a>(
     path: &[&str],
     name: &str,
 ) -> Result<(usize, &'a [Edge])> {
-    let (body, group) = named(scene, model, path, name)?;
+    let (subdomain, group) = named(scene, model, path, name)?;
     let all = group.map_or(&[][..], Group::each);
     if let Some(curve) = all.iter().find(|group| group.kind() == "curve") {
         return match curve {
-            Group::Edges(edges) => Ok((body, edges)),
-            fault => Err(refusal(scene, path, (body, name), fault)),
+            Group::Edges(edges) => Ok((subdomain, edges)),
+            fault => Err(refusal(scene, path, (subdomain, name), fault)),
         };
     }
     let kind = group.map_or("body", Group::kind);
-    let mesh = &model.bodies[body].mesh;
+    let mesh = &model.subdomains[subdomain].mesh;
     let curves = mesh.groups.iter().filter(|(_, group)| group.each().iter().any(|one| one.kind() == "curve"));
     let curves: Vec<&str> = curves.map(|(name, _)| name.as_str()).collect();
     let what = format!("\"{name}\" is a {kind}, not a curve");
-    Err(scene.source.refuse(path, what, format!("its curves are {}", curves.join(", "))))
+    Err(scene.source.error_at(path, what, format!("its curves are {}", curves.join(", "))))
 }
 
 /// A group that must be of points.
@@ -98,36 +105,36 @@ pub(super) fn points<'a>(
     path: &[&str],
     name: &str,
 ) -> Result<(usize, &'a [usize])> {
-    let (body, group) = named(scene, model, path, name)?;
+    let (subdomain, group) = named(scene, model, path, name)?;
     let all = group.map_or(&[][..], Group::each);
     match all.iter().find(|group| group.kind() == "point") {
-        Some(Group::Points(points)) => Ok((body, points)),
-        Some(fault) => Err(refusal(scene, path, (body, name), fault)),
+        Some(Group::Points(points)) => Ok((subdomain, points)),
+        Some(fault) => Err(refusal(scene, path, (subdomain, name), fault)),
         None => {
             let kind = group.map_or("body", Group::kind);
             let what = format!("a force on \"{name}\", which is a {kind}");
-            Err(scene.source.refuse(path, what, "name a physical point, or give a \"traction\""))
+            Err(scene.source.error_at(path, what, "name a physical point, or give a \"traction\""))
         }
     }
 }
 
 /// Model nodes of a group or body, ascending, each once.
 pub(super) fn nodes(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<usize>> {
-    let (body, group) = find(scene, model, path, name)?;
-    let body = &model.bodies[body];
+    let (subdomain, group) = find(scene, model, path, name)?;
+    let subdomain = &model.subdomains[subdomain];
     let nodes = match group {
-        Some(group) => group.points(&body.mesh),
-        None => (0..body.mesh.points.len()).collect(),
+        Some(group) => group.points(&subdomain.mesh),
+        None => (0..subdomain.mesh.points.len()).collect(),
     };
-    Ok(nodes.into_iter().map(|node| body.first_node + node).collect())
+    Ok(nodes.into_iter().map(|node| subdomain.first_node + node).collect())
 }
 
 /// Weights of the model nodes in the mean over a group: by length, by area, or each the same for points.
 pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<(usize, f64)>> {
     use crate::continuum::{cell_coordinates, cell_weights, edge_weights};
     let (index, group) = find(scene, model, path, name)?;
-    let body = &model.bodies[index];
-    let mesh = &body.mesh;
+    let subdomain = &model.subdomains[index];
+    let mesh = &subdomain.mesh;
     let mut weights: Vec<(usize, f64)> = Vec::new();
     let mut add_cell = |c: usize| {
         let of_cell = cell_weights(mesh.cells.shapes[c], &cell_coordinates(mesh, c));
@@ -155,7 +162,7 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
         }
         same
     });
-    Ok(weights.into_iter().map(|(node, w)| (body.first_node + node, w / total)).collect())
+    Ok(weights.into_iter().map(|(node, w)| (subdomain.first_node + node, w / total)).collect())
 }
 
 /// Coordinates of an edge, relative to its start.

@@ -7,7 +7,7 @@ use indexmap::IndexMap;
 
 use super::load::BoundLoad;
 use super::quantity::Quantity;
-use super::stage::{BoundStep, Moving};
+use super::step::{BoundStep, Moving};
 use super::{along, groups};
 use crate::assembly::Model;
 use crate::error::Result;
@@ -40,24 +40,26 @@ pub(super) type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
 
 /// Supports in force.
 struct Supports {
-    held: Vec<bool>,
-    target: Vec<f64>,
+    constrained: Vec<bool>,
+    prescribed: Vec<f64>,
     /// Held where it is, by `hold`.
-    kept: Vec<bool>,
+    frozen: Vec<bool>,
 }
 
 /// Binds all steps.
-pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec<Reaction>)> {
+pub(super) fn steps(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec<Reaction>)> {
     let n = model.dofs();
-    let mut supports = Supports { held: vec![false; n], target: vec![0.0; n], kept: vec![false; n] };
+    let mut supports =
+        Supports { constrained: vec![false; n], prescribed: vec![0.0; n], frozen: vec![false; n] };
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
     let mut loads = Loads::new();
     let mut force = vec![0.0; model.dofs()];
-    let mut stages = Vec::new();
+    let mut steps = Vec::new();
     for (index, step) in scene.steps.iter().enumerate() {
         let index = index.to_string();
-        let held = named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
-        for (key, group, direction, _) in prescribed(step).chain(held) {
+        let constrained =
+            named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
+        for (key, group, direction, _) in prescribed(step).chain(constrained) {
             let dofs = dofs(scene, model, &["steps", &index, key, group], group, direction)?;
             let reaction = Reaction { group: group.into(), direction, dofs };
             reactions.entry((group.to_string(), direction.component())).or_insert(reaction);
@@ -79,28 +81,28 @@ pub(super) fn stages(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Ve
         for load in changing.values() {
             load.add(model, 1.0, &mut force)?;
         }
-        let stage = BoundStep {
+        let step = BoundStep {
             name: step.name.clone(),
             increments: step.increments,
             control: step.control,
-            held: supports.held.clone(),
+            constrained: supports.constrained.clone(),
             released,
-            target: supports.target.clone(),
-            kept: supports.kept.clone(),
+            prescribed: supports.prescribed.clone(),
+            frozen: supports.frozen.clone(),
             moving,
             force_start,
             force_end,
             changing: changing.into_values().collect(),
         };
-        stage.check(model)?;
-        if step.control != Control::Load && stage.follows_load_factor() {
+        step.check(model)?;
+        if step.control != Control::Load && step.follows_load_factor() {
             let what = "the path of equilibria cannot be followed while a formula holds load_factor";
-            let cure = "ramp loads and displacements, or set \"control\": \"load\"";
-            return Err(scene.source.refuse(&["steps", &index, "control"], what, cure));
+            let help = "ramp loads and displacements, or set \"control\": \"load\"";
+            return Err(scene.source.error_at(&["steps", &index, "control"], what, help));
         }
-        stages.push(stage);
+        steps.push(step);
     }
-    Ok((stages, reactions.into_values().collect()))
+    Ok((steps, reactions.into_values().collect()))
 }
 
 /// Nodal forces of loads at the end of their step.
@@ -122,15 +124,16 @@ pub(super) fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> R
         let bound = BoundLoad::on_group(scene, model, index, group, load)?;
         given.insert(("load", group.clone()), Arc::new(bound));
     }
-    for (b, body) in model.bodies.iter().enumerate() {
-        if let Some(values) = step.body_force.get(&body.name) {
-            let path = ["steps", index, "body_force", &body.name];
-            let bound = BoundLoad::on_body(scene, &path, b, 1.0, values)?;
-            given.insert(("body_force", body.name.clone()), Arc::new(bound));
+    for (b, subdomain) in model.subdomains.iter().enumerate() {
+        if let Some(values) = step.body_force.get(&subdomain.name) {
+            let path = ["steps", index, "body_force", &subdomain.name];
+            let bound = BoundLoad::on_subdomain(scene, &path, b, 1.0, values)?;
+            given.insert(("body_force", subdomain.name.clone()), Arc::new(bound));
         }
         if let Some(values) = &step.gravity {
-            let bound = BoundLoad::on_body(scene, &["steps", index, "gravity"], b, body.density, values)?;
-            given.insert(("gravity", body.name.clone()), Arc::new(bound));
+            let bound =
+                BoundLoad::on_subdomain(scene, &["steps", index, "gravity"], b, subdomain.density, values)?;
+            given.insert(("gravity", subdomain.name.clone()), Arc::new(bound));
         }
     }
     Ok(given)
@@ -189,23 +192,23 @@ fn hold_and_release(
         for dof in dofs(scene, model, &path, group, direction)? {
             if let Some(other) = taken.get(&dof).filter(|other| **other != format!("{key} {group}")) {
                 let what = format!("{key} of \"{group}\" in {name} meets {other} at the same node");
-                return Err(scene.source.refuse(
+                return Err(scene.source.error_at(
                     &path,
                     what,
                     "give each direction of a node one duty in a step",
                 ));
             }
             if key == "hold" {
-                (supports.held[dof], supports.kept[dof], found) = (true, true, true);
-            } else if supports.held[dof] {
-                (supports.held[dof], supports.kept[dof], found) = (false, false, true);
+                (supports.constrained[dof], supports.frozen[dof], found) = (true, true, true);
+            } else if supports.constrained[dof] {
+                (supports.constrained[dof], supports.frozen[dof], found) = (false, false, true);
                 released.push(dof);
             }
             taken.insert(dof, format!("{key} {group}"));
         }
         if !found {
             let what = format!("nothing holds \"{group}\" in {name}");
-            return Err(scene.source.refuse(
+            return Err(scene.source.error_at(
                 &path,
                 what,
                 "release what an earlier step fixes, displaces or holds",
@@ -257,11 +260,12 @@ fn support(
                     let what = format!(
                         "\"{group}\" wants displacement_{name} = {wanted} where \"{other}\" wants {wants}"
                     );
-                    let cure = "groups that share a point must agree there";
-                    return Err(scene.source.refuse(&path, what, cure));
+                    let help = "groups that share a point must agree there";
+                    return Err(scene.source.error_at(&path, what, help));
                 }
             }
-            (supports.held[dof], supports.target[dof], supports.kept[dof]) = (true, value[0], false);
+            (supports.constrained[dof], supports.prescribed[dof], supports.frozen[dof]) =
+                (true, value[0], false);
             if follows {
                 moving.insert(dof, Moving { dof, place, value: quantity.clone() });
             }
@@ -282,12 +286,12 @@ fn places(
 ) -> Result<Vec<(usize, Place)>> {
     let nodes = groups::nodes(scene, model, path, name)?;
     let (index, group) = groups::find(scene, model, path, name)?;
-    let body = &model.bodies[index];
-    let points = &body.mesh.points;
+    let subdomain = &model.subdomains[index];
+    let points = &subdomain.mesh.points;
     let mut s = vec![0.0; nodes.len()];
     match group {
         Some(Group::Edges(edges)) if quantity.uses(Variable::S) => {
-            let fractions = along::fractions(points, edges).map_err(|why| quantity.refuse_s(&why))?;
+            let fractions = along::fractions(points, edges).map_err(|why| quantity.error_at_s(&why))?;
             for (edge, ends) in edges.iter().zip(fractions) {
                 let x = groups::edge_coordinates(points, edge);
                 let middle = along::at(ends, &x, true, 0.0);
@@ -295,7 +299,7 @@ fn places(
                 let of_edge =
                     [ends[0], ends[1], if edge.nodes[2] == edge.nodes[1] { ends[1] } else { middle }];
                 for (node, of_node) in edge.nodes.into_iter().zip(of_edge) {
-                    if let Ok(i) = nodes.binary_search(&(body.first_node + node)) {
+                    if let Ok(i) = nodes.binary_search(&(subdomain.first_node + node)) {
                         s[i] = of_node;
                     }
                 }
@@ -304,12 +308,12 @@ fn places(
         Some(Group::Points(_) | Group::Edges(_)) => {}
         other if quantity.uses(Variable::S) => {
             let kind = other.map_or("body", Group::kind);
-            return Err(quantity.refuse_s(&format!("\"{name}\" is a {kind}")));
+            return Err(quantity.error_at_s(&format!("\"{name}\" is a {kind}")));
         }
         _ => {}
     }
     let place = |(node, s): (usize, f64)| {
-        let [x, y] = points[node - body.first_node];
+        let [x, y] = points[node - subdomain.first_node];
         (node, Place { x, y, s, load_factor: 1.0 })
     };
     Ok(nodes.into_iter().zip(s).map(place).collect())

@@ -47,10 +47,10 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
     let mut tell = |path: &[&str], why: String, help| {
         told.push((path.iter().map(|part| part.to_string()).collect(), why, help));
     };
-    for (name, interface) in &scene.interfaces {
+    for (name, stated) in &scene.interfaces {
         let linear = |edge: &Edge| edge.nodes[2] == edge.nodes[1];
         let mut own = plans.iter().filter(|plan| plan.entry == name).peekable();
-        let quadratic_grid = interface.grid == Grid::Quadratic && own.peek().is_some();
+        let quadratic_grid = stated.grid == Grid::Quadratic && own.peek().is_some();
         let has_linear =
             |plan: &PlannedInterface| plan.sides.iter().flatten().any(|curve| curve.edges.iter().any(linear));
         if quadratic_grid && own.all(has_linear) {
@@ -63,13 +63,13 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
         }
         let path = ["interfaces", name, "law_tolerance"];
         // a preset sets it for every law
-        let chosen = interface.law_tolerance != crate::law::LAW_TOLERANCE && scene.accuracy.is_none();
-        if !matches!(interface.law, Law::Cracking(_)) && (chosen || scene.source.states(&path)) {
+        let chosen = stated.law_tolerance != crate::law::LAW_TOLERANCE && scene.accuracy.is_none();
+        if !matches!(stated.law, Law::Cracking(_)) && (chosen || scene.source.states(&path)) {
             let why = "this law is evaluated exactly and has no error to control";
             tell(&path, why.into(), "leave it out: only \"cracking\" is integrated");
         }
     }
-    if scene.interfaces.values().all(|interface| matches!(interface.law, Law::Elastic(_))) {
+    if scene.interfaces.values().all(|stated| matches!(stated.law, Law::Elastic(_))) {
         let linear = "nothing slides or cracks: the scene is linear";
         for (i, step) in scene.steps.iter().enumerate() {
             if step.control != Control::Load {

@@ -1,13 +1,13 @@
-//! Initial tractions t₀ at the law points of a joint (paper eq. 10).
+//! Initial tractions t₀ at the law points of an interface (paper eq. 10).
 
 use super::Gaps;
 use super::quantity::Quantity;
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 use crate::error::Result;
 use crate::law::{self, Inadmissible, Law};
 use crate::scene::{self, Place, Scene};
 
-/// Initial traction (n, t) of a joint [stress].
+/// Initial traction (n, t) of an interface [stress].
 #[derive(Debug, Clone, PartialEq)]
 pub enum InitialTraction {
     /// The same at all law points.
@@ -29,17 +29,17 @@ impl InitialTraction {
     pub(super) fn bind(
         scene: &Scene,
         name: &str,
-        interface: &scene::Interface,
-        joint: &Joint,
+        stated: &scene::Interface,
+        interface: &InterfaceOperator,
     ) -> Result<InitialTraction> {
-        let [n, t] = &interface.initial_traction;
+        let [n, t] = &stated.initial_traction;
         if let (Some(n), Some(t)) = (n.constant(), t.constant()) {
             return Ok(InitialTraction::Uniform([n, t]));
         }
         let n = Quantity::new(scene, &["interfaces", name, "initial_traction", "0"], n);
         let t = Quantity::new(scene, &["interfaces", name, "initial_traction", "1"], t);
-        let length = joint.coupling.midplane.length;
-        let tractions = joint.coupling.points.iter().map(|point| {
+        let length = interface.coupling.midplane.length;
+        let tractions = interface.coupling.points.iter().map(|point| {
             let [x, y] = point.position;
             let place = Place { x, y, s: point.s / length, load_factor: 0.0 };
             Ok([n.at(&place)?, t.at(&place)?])
@@ -48,22 +48,22 @@ impl InitialTraction {
     }
 }
 
-/// States of the law points before the first increment; none for an elastic joint.
+/// States of the law points before the first increment; none for an elastic interface.
 pub(super) fn states(
     scene: &Scene,
     name: &str,
     law: &Law,
     initial: &InitialTraction,
     gaps: &Gaps,
-    joint: &Joint,
+    interface: &InterfaceOperator,
 ) -> Result<Vec<law::State>> {
     if matches!(law, Law::Elastic(_)) {
         return Ok(Vec::new());
     }
     let state = |point: usize| {
         law.initial_state(initial.at(point).into(), gaps.at(point)).map_err(
-            |Inadmissible { key, what, cure }| scene.source.refuse(&["interfaces", name, key], what, cure),
+            |Inadmissible { key, what, help }| scene.source.error_at(&["interfaces", name, key], what, help),
         )
     };
-    (0..joint.coupling.points.len()).map(state).collect()
+    (0..interface.coupling.points.len()).map(state).collect()
 }

@@ -1,4 +1,4 @@
-//! A load bound to what it acts on: nodal forces at any load level.
+//! A load bound to what it acts on: nodal forces at any load factor.
 
 use super::quantity::Quantity;
 use super::{along, groups};
@@ -20,11 +20,11 @@ pub(super) struct BoundLoad {
 #[derive(Debug, Clone)]
 enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
-    Edges { body: usize, edges: Vec<Edge>, s: Option<Vec<[f64; 2]>>, pressure: bool },
+    Edges { subdomain: usize, edges: Vec<Edge>, s: Option<Vec<[f64; 2]>>, pressure: bool },
     /// Points of a body.
-    Points { body: usize, points: Vec<usize> },
+    Points { subdomain: usize, points: Vec<usize> },
     /// A whole body: force per volume times a factor.
-    Body { body: usize, factor: f64 },
+    Body { subdomain: usize, factor: f64 },
 }
 
 impl BoundLoad {
@@ -47,32 +47,32 @@ impl BoundLoad {
             Load::Traction(values) => (both("traction", values), false),
             Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
             Load::Force(values) => {
-                let (body, points) = groups::points(scene, model, &path, name)?;
-                let target = LoadTarget::Points { body, points: points.to_vec() };
+                let (subdomain, points) = groups::points(scene, model, &path, name)?;
+                let target = LoadTarget::Points { subdomain, points: points.to_vec() };
                 return Ok(BoundLoad { target, values: both("force", values) });
             }
         };
-        let (body, edges) = groups::curve(scene, model, &path, name)?;
+        let (subdomain, edges) = groups::curve(scene, model, &path, name)?;
         if pressure && values[0].constant() != Some(0.0) && edges.iter().any(|edge| !edge.boundary) {
             let what = format!("\"{name}\" runs inside its body");
-            let cure = "a pressure acts on the boundary; give a \"traction\"";
-            return Err(scene.source.refuse(&path, what, cure));
+            let help = "a pressure acts on the boundary; give a \"traction\"";
+            return Err(scene.source.error_at(&path, what, help));
         }
         let s = match values.iter().find(|value| value.uses(Variable::S)) {
             Some(value) => {
-                let points = &model.bodies[body].mesh.points;
-                Some(along::fractions(points, edges).map_err(|why| value.refuse_s(&why))?)
+                let points = &model.subdomains[subdomain].mesh.points;
+                Some(along::fractions(points, edges).map_err(|why| value.error_at_s(&why))?)
             }
             None => None,
         };
-        Ok(BoundLoad { target: LoadTarget::Edges { body, edges: edges.to_vec(), s, pressure }, values })
+        Ok(BoundLoad { target: LoadTarget::Edges { subdomain, edges: edges.to_vec(), s, pressure }, values })
     }
 
     /// Binds a force per volume (times a factor) on a body; `path` is the key of its two components.
-    pub(super) fn on_body(
+    pub(super) fn on_subdomain(
         scene: &Scene,
         path: &[&str],
-        body: usize,
+        subdomain: usize,
         factor: f64,
         values: &[Value; 2],
     ) -> Result<BoundLoad> {
@@ -80,8 +80,8 @@ impl BoundLoad {
         let quantity = |index: &str, value| Quantity::new(scene, &[path, &[index]].concat(), value);
         let values = [quantity("0", x), quantity("1", y)];
         match values.iter().find(|value| value.uses(Variable::S)) {
-            Some(value) => Err(value.refuse_s("a body has no such coordinate")),
-            None => Ok(BoundLoad { target: LoadTarget::Body { body, factor }, values }),
+            Some(value) => Err(value.error_at_s("a body has no such coordinate")),
+            None => Ok(BoundLoad { target: LoadTarget::Body { subdomain, factor }, values }),
         }
     }
 
@@ -90,7 +90,7 @@ impl BoundLoad {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))
     }
 
-    /// True if it has no nodal force at any of the load levels of a step.
+    /// True if it has no nodal force at any of the load factors of a step.
     pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
         let both = self.values.each_ref().map(Quantity::constant);
         if let LoadTarget::Body { factor: 0.0, .. } = self.target {
@@ -99,10 +99,10 @@ impl BoundLoad {
         if let [Some(x), Some(y)] = both {
             return Ok(x == 0.0 && y == 0.0);
         }
-        let levels = if self.follows_load_factor() { 1..=increments } else { increments..=increments };
-        for level in levels {
+        let load_factors = if self.follows_load_factor() { 1..=increments } else { increments..=increments };
+        for load_factor in load_factors {
             let mut force = vec![0.0; model.dofs()];
-            self.add(model, level as f64 / increments as f64, &mut force)?;
+            self.add(model, load_factor as f64 / increments as f64, &mut force)?;
             if force.iter().any(|force| *force != 0.0) {
                 return Ok(false);
             }
@@ -110,7 +110,7 @@ impl BoundLoad {
         Ok(true)
     }
 
-    /// Adds its nodal forces at a load level.
+    /// Adds its nodal forces at a load factor.
     pub(super) fn add(&self, model: &Model, load_factor: f64, force: &mut [f64]) -> Result<()> {
         let [x, y] = &self.values;
         let constant = match (x.constant(), y.constant()) {
@@ -127,17 +127,17 @@ impl BoundLoad {
             }
         };
         match &self.target {
-            LoadTarget::Edges { body, edges, s, pressure } => {
-                let body = &model.bodies[*body];
+            LoadTarget::Edges { subdomain, edges, s, pressure } => {
+                let subdomain = &model.subdomains[*subdomain];
                 let split = |v: [f64; 2]| if *pressure { ([0.0; 2], v[0]) } else { (v, 0.0) };
                 for (e, edge) in edges.iter().enumerate() {
                     let quadratic = edge.nodes[2] != edge.nodes[1];
-                    let x = groups::edge_coordinates(&body.mesh.points, edge);
+                    let x = groups::edge_coordinates(&subdomain.mesh.points, edge);
                     let nodal = if let Some(constant) = constant {
                         let (traction, pressure) = split(constant);
                         edge_force(&x, quadratic, traction, pressure, model.thickness)
                     } else {
-                        let origin = body.mesh.points[edge.nodes[0]];
+                        let origin = subdomain.mesh.points[edge.nodes[0]];
                         edge_field_force(&x, quadratic, model.thickness, |xi, place| {
                             let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, quadratic, xi));
                             Ok::<_, Error>(split(at(plus(origin, place), s)?))
@@ -145,18 +145,18 @@ impl BoundLoad {
                     };
                     for (node, nodal) in edge.nodes.into_iter().zip(nodal).take(if quadratic { 3 } else { 2 })
                     {
-                        scatter(body.first_node + node, nodal);
+                        scatter(subdomain.first_node + node, nodal);
                     }
                 }
             }
-            LoadTarget::Points { body, points } => {
-                let body = &model.bodies[*body];
+            LoadTarget::Points { subdomain, points } => {
+                let subdomain = &model.subdomains[*subdomain];
                 for &point in points {
-                    scatter(body.first_node + point, at(body.mesh.points[point], 0.0)?);
+                    scatter(subdomain.first_node + point, at(subdomain.mesh.points[point], 0.0)?);
                 }
             }
-            LoadTarget::Body { body, factor } => {
-                let (body, mesh) = (&model.bodies[*body], &model.bodies[*body].mesh);
+            LoadTarget::Body { subdomain, factor } => {
+                let (subdomain, mesh) = (&model.subdomains[*subdomain], &model.subdomains[*subdomain].mesh);
                 let factor = factor * model.thickness;
                 if constant == Some([0.0; 2]) || factor == 0.0 {
                     return Ok(());
@@ -166,13 +166,16 @@ impl BoundLoad {
                     let x = cell_coordinates(mesh, c);
                     if let Some(density) = constant {
                         for (&node, weight) in nodes.iter().zip(cell_weights(shape, &x)) {
-                            scatter(body.first_node + node, density.map(|density| factor * weight * density));
+                            scatter(
+                                subdomain.first_node + node,
+                                density.map(|density| factor * weight * density),
+                            );
                         }
                     } else {
                         let origin = mesh.points[nodes[0]];
                         let nodal = cell_field_force(shape, &x, |place| at(plus(origin, place), 0.0))?;
                         for (&node, nodal) in nodes.iter().zip(nodal) {
-                            scatter(body.first_node + node, nodal.map(|nodal| factor * nodal));
+                            scatter(subdomain.first_node + node, nodal.map(|nodal| factor * nodal));
                         }
                     }
                 }

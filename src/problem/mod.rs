@@ -15,7 +15,7 @@ mod plan;
 mod probes;
 mod quantity;
 mod rigid;
-mod stage;
+mod step;
 mod stiffness;
 mod survey;
 mod unjoined;
@@ -27,13 +27,13 @@ pub use history::Reaction;
 pub use initial::InitialTraction;
 pub use parts::subdomain_meshes;
 pub use probes::{BoundProbe, ProbeInput};
-pub use rigid::is_held;
-pub use stage::BoundStep;
+pub use rigid::is_constrained;
+pub use step::BoundStep;
 pub use stiffness::stiffness_number;
 pub use survey::Survey;
 pub use unused::unused_groups;
 
-use crate::assembly::{Body, Joint, Model};
+use crate::assembly::{Body, InterfaceOperator, Model};
 use crate::continuum::{Elasticity, PlaneState};
 use crate::error::{Result, Warning};
 use crate::law::{self, Integration, Law};
@@ -43,25 +43,25 @@ use crate::scene::{self, Scene};
 /// Everything the run needs, with no names left to resolve.
 #[derive(Debug)]
 pub struct Problem {
-    /// Bodies and joints.
+    /// Bodies and interfaces.
     pub model: Model,
-    /// Law and initial traction of every joint.
+    /// Law and initial traction of every interface.
     pub laws: Vec<(Law, InitialTraction)>,
-    /// States of the law points before the first increment; empty for an elastic joint, which has no history.
+    /// States of the law points before the first increment; empty for an elastic interface, which has no history.
     pub states: Vec<Vec<law::State>>,
-    /// How the laws' integration is controlled, joint by joint.
-    pub stepping: Vec<Integration>,
-    /// How equilibrium is found where a joint is not elastic.
+    /// How the laws' integration is controlled, interface by interface.
+    pub integration: Vec<Integration>,
+    /// How equilibrium is found where an interface is not elastic.
     pub solution: scene::Solution,
     /// Supports and loads step by step.
-    pub stages: Vec<BoundStep>,
+    pub steps: Vec<BoundStep>,
     /// Which increments store their fields.
     pub fields: scene::Fields,
     /// Columns of the history: name and probe.
     pub probes: Vec<(String, BoundProbe)>,
     /// Groups that hold something, for their reactions.
     pub reactions: Vec<Reaction>,
-    /// True for the elastic joints that are too stiff for differences of displacements.
+    /// True for the elastic interfaces that are too stiff for differences of displacements.
     pub stiff: Vec<bool>,
     /// What the user should know before believing the result.
     pub warnings: Vec<Warning>,
@@ -79,40 +79,49 @@ impl Problem {
         Problem::bind_joined(scene, meshes, &[])
     }
 
-    /// The same where the joints are known from a scene that differs in laws, materials, loads or output only.
-    pub fn bind_joined(scene: &Scene, meshes: Vec<Mesh>, joints: &[Joint]) -> Result<Problem> {
+    /// The same where the interfaces are known from a scene that differs in laws, materials, loads or output only.
+    pub fn bind_joined(
+        scene: &Scene,
+        meshes: Vec<Mesh>,
+        interfaces: &[InterfaceOperator],
+    ) -> Result<Problem> {
         let mut model = Model {
             components: 2,
             thickness: scene.thickness,
-            bodies: bodies(scene, meshes),
-            joints: Vec::new(),
+            subdomains: subdomains(scene, meshes),
+            interfaces: Vec::new(),
         };
-        let mut warnings = warnings::locking(&model.bodies);
-        let (mut laws, mut states, mut stepping) = (Vec::new(), Vec::new(), Vec::new());
+        let mut warnings = warnings::locking(&model.subdomains);
+        let (mut laws, mut states, mut integration) = (Vec::new(), Vec::new(), Vec::new());
         let mut stiff = Vec::new();
         let plans = plan::plans(scene, &model)?;
         for (k, plan) in plans.iter().enumerate() {
-            let joint = joints.get(k).map_or_else(|| plan.join(&model), |joint| Ok(joint.clone()))?;
-            let interface = plan.interface;
-            stiffness::refuse_beyond_precision(scene, &model, &joint, plan)?;
-            warnings.extend(warnings::of_joint(scene, &model, &joint, plan));
-            stiff.push(stiffness::is_stiff(scene, interface, &model, &joint));
-            let gaps = Gaps::new(interface.initial_gap, &joint);
-            let initial = InitialTraction::bind(scene, plan.entry, interface, &joint)?;
-            states.push(initial::states(scene, plan.entry, &interface.law, &initial, &gaps, &joint)?);
-            stepping.push(Integration::Tolerance(interface.law_tolerance));
-            laws.push((interface.law, initial));
-            model.joints.push(joint);
+            let interface =
+                interfaces.get(k).map_or_else(|| plan.join(&model), |interface| Ok(interface.clone()))?;
+            let stated = plan.stated;
+            stiffness::check_precision(scene, &model, &interface, plan)?;
+            warnings.extend(warnings::of_interface(scene, &model, &interface, plan));
+            stiff.push(stiffness::is_stiff(scene, stated, &model, &interface));
+            let gaps = Gaps::new(stated.initial_gap, &interface);
+            let initial = InitialTraction::bind(scene, plan.entry, stated, &interface)?;
+            states.push(initial::states(scene, plan.entry, &stated.law, &initial, &gaps, &interface)?);
+            integration.push(Integration::Tolerance(stated.law_tolerance));
+            laws.push((stated.law, initial));
+            model.interfaces.push(interface);
         }
         warnings.extend(cover::shares(scene, &model, &plans)?);
         let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
         warnings.extend(unjoined);
-        model.bodies.iter_mut().zip(&connectivity).for_each(|(body, found)| body.pieces = found.nodes(body));
-        let (stages, reactions) = history::stages(scene, &model)?;
+        model
+            .subdomains
+            .iter_mut()
+            .zip(&connectivity)
+            .for_each(|(subdomain, found)| subdomain.pieces = found.nodes(subdomain));
+        let (steps, reactions) = history::steps(scene, &model)?;
         warnings.extend(idle::loads(scene, &model)?);
         warnings.extend(idle::keys(scene, &plans));
-        for stage in &stages {
-            let warning = rigid::refuse_free_bodies(&model, &connectivity, &laws, stage)?;
+        for step in &steps {
+            let warning = rigid::check_free_subdomains(&model, &connectivity, &laws, step)?;
             let new = warning.filter(|warning| !warnings.contains(warning));
             warnings.extend(new);
         }
@@ -122,10 +131,10 @@ impl Problem {
             model,
             laws,
             states,
-            stepping,
+            integration,
             solution,
             fields,
-            stages,
+            steps,
             probes,
             reactions,
             stiff,
@@ -134,16 +143,16 @@ impl Problem {
     }
 }
 
-fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
+fn subdomains(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
     let plane = match scene.plane {
         scene::Plane::Strain => PlaneState::Strain,
         scene::Plane::Stress => PlaneState::Stress,
     };
     let mut first_node = 0;
-    let bodies = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {
+    let subdomains = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {
         let material = scene.materials[&subdomain.material];
         let elasticity = Elasticity::new(material.young, material.poisson, plane);
-        let body = Body {
+        let subdomain = Body {
             name: name.clone(),
             mesh,
             elasticity,
@@ -151,8 +160,8 @@ fn bodies(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
             first_node,
             pieces: Vec::new(),
         };
-        first_node += body.mesh.points.len();
-        body
+        first_node += subdomain.mesh.points.len();
+        subdomain
     });
-    bodies.collect()
+    subdomains.collect()
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 
 use super::groups::{file, refusal};
-use crate::error::{Code, Result, Warning, name_cure};
+use crate::error::{Code, Result, Warning, name_help};
 use crate::mesh::{Group, Mesh};
 use crate::scene::Scene;
 
@@ -33,7 +33,7 @@ pub fn subdomain_meshes(
                 let other = &scene.subdomains[before].surface;
                 let other = other.as_deref().unwrap_or_default();
                 let what = format!("\"{surface}\" and \"{other}\" share cells, near ({x}, {y})");
-                return Err(scene.source.refuse(&path, what, "every cell belongs to one subdomain"));
+                return Err(scene.source.error_at(&path, what, "every cell belongs to one subdomain"));
             }
         }
         cells.push(Some(of_surface));
@@ -65,8 +65,8 @@ fn surface_cells<'a>(scene: &Scene, name: &str, mesh: &'a Mesh, surface: &str) -
     let what = match found.and_then(|group| group.each().iter().find(is_surface)) {
         Some(Group::Cells(cells)) => return Ok(cells),
         Some(fault) => {
-            let body = scene.subdomains.get_index_of(name).unwrap_or(0);
-            return Err(refusal(scene, &path, (body, surface), fault));
+            let subdomain = scene.subdomains.get_index_of(name).unwrap_or(0);
+            return Err(refusal(scene, &path, (subdomain, surface), fault));
         }
         None => match found {
             Some(other) => format!("\"{surface}\" of {file} is a {}, not a surface", other.kind()),
@@ -74,8 +74,8 @@ fn surface_cells<'a>(scene: &Scene, name: &str, mesh: &'a Mesh, surface: &str) -
         },
     };
     let surfaces = mesh.groups.iter().filter(|(_, group)| group.each().iter().any(|one| is_surface(&one)));
-    let cure = name_cure(surface, surfaces.map(|(name, _)| name.as_str()));
-    Err(scene.source.refuse(&path, what, cure))
+    let help = name_help(surface, surfaces.map(|(name, _)| name.as_str()));
+    Err(scene.source.error_at(&path, what, help))
 }
 
 /// True if every subdomain has the file of its own number.

@@ -11,20 +11,18 @@ use crate::scene::Scene;
 /// All interfaces in the order of the scene; those of one `between` in the order of the subdomains.
 pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<PlannedInterface<'a>>> {
     let mut named: HashMap<&str, PlannedInterface> = HashMap::new();
-    for (entry, interface) in &scene.interfaces {
-        if let Some([a, b]) = interface.sides() {
+    for (entry, stated) in &scene.interfaces {
+        if let Some([a, b]) = stated.sides() {
             let sides = [side(scene, model, entry, "side_a", a)?, side(scene, model, entry, "side_b", b)?];
-            named.insert(entry, PlannedInterface { name: entry.clone(), entry, interface, sides });
+            named.insert(entry, PlannedInterface { name: entry.clone(), entry, stated, sides });
         }
     }
     let mut taken = between::JoinedEdges::default();
     named.values().for_each(|plan| taken.add(&plan.sides));
     let mut plans = Vec::new();
-    for (entry, interface) in &scene.interfaces {
-        match &interface.between {
-            Some(patterns) => {
-                plans.extend(between::pairs(scene, model, (entry, interface), patterns, &taken)?)
-            }
+    for (entry, stated) in &scene.interfaces {
+        match &stated.between {
+            Some(patterns) => plans.extend(between::pairs(scene, model, (entry, stated), patterns, &taken)?),
             None => plans.extend(named.remove(entry.as_str())),
         }
     }

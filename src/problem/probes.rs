@@ -1,8 +1,8 @@
 //! Probes bound to nodes and law points.
 
 use super::groups;
-use crate::assembly::{Joint, Model};
-use crate::error::{Result, name_cure};
+use crate::assembly::{InterfaceOperator, Model};
+use crate::error::{Result, name_help};
 use crate::law;
 use crate::scene::Scene;
 use crate::scene::probe::{JointField, Probe};
@@ -11,18 +11,18 @@ use crate::scene::probe::{JointField, Probe};
 #[derive(Debug, Clone)]
 pub enum BoundProbe {
     /// A field between two law points: Σ weight · value.
-    Joint {
-        /// Number of the joint.
-        joint: usize,
+    Interface {
+        /// Number of the interface.
+        interface: usize,
         /// Which field.
         field: JointField,
         /// Law points and their weights.
         points: [(usize, f64); 2],
     },
-    /// Resultant of a joint's traction, component n or t.
+    /// Resultant of an interface's traction, component n or t.
     Resultant {
-        /// Number of the joint.
-        joint: usize,
+        /// Number of the interface.
+        interface: usize,
         /// n or t.
         component: usize,
     },
@@ -43,11 +43,11 @@ pub enum BoundProbe {
 pub struct ProbeInput<'a> {
     /// Displacements.
     pub u: &'a [f64],
-    /// Jump (n, t) at the law points of every joint.
+    /// Jump (n, t) at the law points of every interface.
     pub jumps: &'a [Vec<[f64; 2]>],
-    /// Traction (n, t) at the law points of every joint.
+    /// Traction (n, t) at the law points of every interface.
     pub tractions: &'a [Vec<[f64; 2]>],
-    /// State of the law points of every joint; empty for an elastic one.
+    /// State of the law points of every interface; empty for an elastic one.
     pub states: &'a [Vec<law::State>],
     /// Elastic energy.
     pub stored: f64,
@@ -65,23 +65,27 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
     for (name, text) in &scene.output.history {
         let path = ["output", "history", name.as_str()];
         let probe =
-            Probe::parse(text, scene).map_err(|(what, cure)| scene.source.refuse(&path, what, cure))?;
-        let joint = |interface: &str| {
-            let found = model.joints.iter().position(|joint| joint.name == interface);
+            Probe::parse(text, scene).map_err(|(what, help)| scene.source.error_at(&path, what, help))?;
+        let number = |name: &str| {
+            let found = model.interfaces.iter().position(|interface| interface.name == name);
             found.ok_or_else(|| {
-                let cure = name_cure(interface, model.joints.iter().map(|joint| joint.name.as_str()));
-                scene.source.refuse(&path, format!("no interface \"{interface}\""), cure)
+                let help = name_help(name, model.interfaces.iter().map(|interface| interface.name.as_str()));
+                scene.source.error_at(&path, format!("no interface \"{name}\""), help)
             })
         };
         bound.push((
             name.clone(),
             match probe {
-                Probe::Joint { interface, field, fraction } => {
-                    let joint = joint(&interface)?;
-                    BoundProbe::Joint { joint, field, points: around(&model.joints[joint], fraction) }
+                Probe::Interface { interface, field, fraction } => {
+                    let interface = number(&interface)?;
+                    BoundProbe::Interface {
+                        interface,
+                        field,
+                        points: around(&model.interfaces[interface], fraction),
+                    }
                 }
                 Probe::Resultant { interface, component } => {
-                    BoundProbe::Resultant { joint: joint(&interface)?, component }
+                    BoundProbe::Resultant { interface: number(&interface)?, component }
                 }
                 Probe::Displacement { group, direction } => {
                     let mean = groups::mean(scene, model, &path, &group)?;
@@ -101,9 +105,9 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
 }
 
 /// The two law points around a fraction of the length; beyond the outermost points the value of the nearest.
-fn around(joint: &Joint, fraction: f64) -> [(usize, f64); 2] {
-    let points = &joint.coupling.points;
-    let s = fraction * joint.coupling.midplane.length;
+fn around(interface: &InterfaceOperator, fraction: f64) -> [(usize, f64); 2] {
+    let points = &interface.coupling.points;
+    let s = fraction * interface.coupling.midplane.length;
     let after = points.partition_point(|point| point.s < s).min(points.len() - 1);
     let before = after.saturating_sub(1);
     let (s0, s1) = (points[before].s, points[after].s);
@@ -115,19 +119,19 @@ impl BoundProbe {
     /// The value of the probe.
     pub fn value(&self, model: &Model, input: &ProbeInput) -> f64 {
         match self {
-            BoundProbe::Joint { joint, field, points } => {
+            BoundProbe::Interface { interface, field, points } => {
                 let at = |p: usize| match *field {
-                    JointField::Jump(c) => input.jumps[*joint][p][c],
-                    JointField::Traction(c) => input.tractions[*joint][p][c],
+                    JointField::Jump(c) => input.jumps[*interface][p][c],
+                    JointField::Traction(c) => input.tractions[*interface][p][c],
                     JointField::FractureWork => {
-                        input.states[*joint].get(p).map_or(0.0, |state| state.fracture_work)
+                        input.states[*interface].get(p).map_or(0.0, |state| state.fracture_work)
                     }
                 };
                 points.iter().filter(|(_, weight)| *weight != 0.0).map(|&(p, weight)| weight * at(p)).sum()
             }
-            BoundProbe::Resultant { joint, component } => {
-                let points = &model.joints[*joint].coupling.points;
-                let tractions = &input.tractions[*joint];
+            BoundProbe::Resultant { interface, component } => {
+                let points = &model.interfaces[*interface].coupling.points;
+                let tractions = &input.tractions[*interface];
                 points.iter().zip(tractions).map(|(p, t)| model.thickness * p.weight * t[*component]).sum()
             }
             BoundProbe::Displacement(weights) => {

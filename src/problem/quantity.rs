@@ -46,17 +46,18 @@ impl Quantity {
             .filter(|(variable, _)| matches!(variable, Variable::X | Variable::Y) || self.uses(*variable));
         let at: Vec<String> = used.map(|(variable, at)| format!("{} = {at}", variable.name())).collect();
         let what = format!("{} is {value} at {}", self.value, at.join(", "));
-        Err(self.refuse(what, "it must be finite wherever it acts; if(condition, a, b) chooses between two"))
+        Err(self
+            .error_at(what, "it must be finite wherever it acts; if(condition, a, b) chooses between two"))
     }
 
     /// Refuses it with its key.
-    pub(super) fn refuse(&self, what: impl Into<String>, cure: impl Into<String>) -> Error {
-        Error::Text { at: self.key.clone().unwrap_or_default(), what: what.into(), cure: cure.into() }
+    pub(super) fn error_at(&self, what: impl Into<String>, help: impl Into<String>) -> Error {
+        Error::Text { at: self.key.clone().unwrap_or_default(), what: what.into(), help: help.into() }
     }
 
     /// Refuses s where a group has none; `why` says what the group is.
-    pub(super) fn refuse_s(&self, why: &str) -> Error {
+    pub(super) fn error_at_s(&self, why: &str) -> Error {
         let what = format!("s in {}, but {why}", self.value);
-        self.refuse(what, "s runs along one open curve; write it in x and y")
+        self.error_at(what, "s runs along one open curve; write it in x and y")
     }
 }

@@ -1,8 +1,8 @@
 //! Rigid motions that nothing holds, or next to nothing: found before anything is solved, and named.
 //!
-//! Every piece of every body (cells that hang together by edges) has three rigid motions. Supports, joints and nodes that
+//! Every piece of every body (cells that hang together by edges) has three rigid motions. Supports, interfaces and nodes that
 //! two pieces share resist combinations of them; the Gram
-//! matrix of these resistances must have no null space. A joint counts by K h/E, up to 1: softer springs than the bodies
+//! matrix of these resistances must have no null space. An interface counts by K h/E, up to 1: softer springs than the bodies
 //! leave fewer digits of a motion that they alone resist.
 
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -22,15 +22,15 @@ const HARDLY: f64 = 1e-6;
 
 /// A piece of a body.
 struct RigidPiece {
-    body: usize,
+    subdomain: usize,
     nodes: Vec<usize>, // of the model
     centre: [f64; 2],
     size: f64,
 }
 
 /// True if the supports alone resist every rigid motion of a subdomain.
-pub fn is_held(model: &Model, body: usize, held: &[bool]) -> bool {
-    let of = &model.bodies[body];
+pub fn is_constrained(model: &Model, subdomain: usize, constrained: &[bool]) -> bool {
+    let of = &model.subdomains[subdomain];
     let mut gram = DMatrix::<f64>::zeros(3, 3);
     let count = of.mesh.points.len() as f64;
     let centre = [0, 1].map(|d| of.mesh.points.iter().map(|x| x[d]).sum::<f64>() / count);
@@ -38,7 +38,7 @@ pub fn is_held(model: &Model, body: usize, held: &[bool]) -> bool {
     let size = of.mesh.points.iter().map(reach).fold(0.0, f64::max);
     for (node, x) in of.mesh.points.iter().enumerate() {
         let turn = [-(x[1] - centre[1]) / size, (x[0] - centre[0]) / size];
-        for d in (0..2).filter(|d| held[model.components * (of.first_node + node) + d]) {
+        for d in (0..2).filter(|d| constrained[model.components * (of.first_node + node) + d]) {
             let row = [f64::from(d == 0), f64::from(d == 1), turn[d]];
             (0..3).for_each(|i| (0..3).for_each(|j| gram[(i, j)] += row[i] * row[j]));
         }
@@ -48,16 +48,16 @@ pub fn is_held(model: &Model, body: usize, held: &[bool]) -> bool {
 }
 
 /// Refuses the step if a body can move freely in it; warns if it almost can.
-pub(super) fn refuse_free_bodies(
+pub(super) fn check_free_subdomains(
     model: &Model,
     connectivity: &[Connectivity],
     laws: &[(Law, InitialTraction)],
-    stage: &BoundStep,
+    step: &BoundStep,
 ) -> Result<Option<Warning>> {
     let (parts, part_of, hinges) = parts(model, connectivity);
     let motion = |part: &RigidPiece, mode: usize, node: usize| -> [f64; 2] {
-        let body = &model.bodies[part.body];
-        let x = body.mesh.points[node - body.first_node];
+        let subdomain = &model.subdomains[part.subdomain];
+        let x = subdomain.mesh.points[node - subdomain.first_node];
         match mode {
             0 => [1.0, 0.0],
             1 => [0.0, 1.0],
@@ -67,10 +67,14 @@ pub(super) fn refuse_free_bodies(
     let mut gram = DMatrix::<f64>::zeros(3 * parts.len(), 3 * parts.len());
     for (p, part) in parts.iter().enumerate() {
         for d in 0..2 {
-            let held: Vec<usize> =
-                part.nodes.iter().copied().filter(|node| stage.held[model.components * node + d]).collect();
-            let share = 1.0 / held.len() as f64; // many nodes hold no more than a few
-            for node in held {
+            let constrained: Vec<usize> = part
+                .nodes
+                .iter()
+                .copied()
+                .filter(|node| step.constrained[model.components * node + d])
+                .collect();
+            let share = 1.0 / constrained.len() as f64; // many nodes hold no more than a few
+            for node in constrained {
                 let row = [0, 1, 2].map(|mode| motion(part, mode, node)[d]);
                 for i in 0..3 {
                     for j in 0..3 {
@@ -96,8 +100,8 @@ pub(super) fn refuse_free_bodies(
         }
     }
     let mut u = vec![0.0; model.dofs()];
-    for (joint, (law, _)) in model.joints.iter().zip(laws) {
-        let mut nodes = [joint.coupling.nodes_a.as_slice(), &joint.coupling.nodes_b].concat();
+    for (interface, (law, _)) in model.interfaces.iter().zip(laws) {
+        let mut nodes = [interface.coupling.nodes_a.as_slice(), &interface.coupling.nodes_b].concat();
         nodes.sort_unstable();
         nodes.dedup(); // both sides of a slit share its tips
         let mut touched: Vec<usize> = nodes.iter().map(|&node| part_of[node]).collect();
@@ -110,14 +114,14 @@ pub(super) fn refuse_free_bodies(
                     let motion = motion(&parts[p], mode, node);
                     u[model.components * node..model.components * node + 2].copy_from_slice(&motion);
                 }
-                jumps.push((3 * p + mode, joint.jumps(&u)));
+                jumps.push((3 * p + mode, interface.jumps(&u)));
                 for &node in &nodes {
                     u[model.components * node..model.components * node + 2].copy_from_slice(&[0.0; 2]);
                 }
             }
         }
-        let compliance = compliance(model, joint);
-        let share = 1.0 / joint.coupling.points.len() as f64;
+        let compliance = compliance(model, interface);
+        let share = 1.0 / interface.coupling.points.len() as f64;
         let resists = law.elastic_stiffness().map(|k| share * (k * compliance).min(1.0));
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
@@ -164,8 +168,8 @@ pub(super) fn refuse_free_bodies(
         named(model, connectivity, &parts, &moving),
         value / limit * FREE
     );
-    let cure = "hold it, or give its joints a stiffness in that direction: what it does is up to the mesh";
-    Ok(Some(Warning::new(Code::HardlyHeld, what, cure)))
+    let help = "hold it, or give its joints a stiffness in that direction: what it does is up to the mesh";
+    Ok(Some(Warning::new(Code::HardlyHeld, what, help)))
 }
 
 fn free(
@@ -175,20 +179,21 @@ fn free(
     moving: &[usize],
     mode: String,
 ) -> Error {
-    let body = parts[moving[0]].body;
-    let mode = match connectivity[body].told(&model.bodies[body]) {
+    let subdomain = parts[moving[0]].subdomain;
+    let mode = match connectivity[subdomain].told(&model.subdomains[subdomain]) {
         Some(told) => format!("{mode} ({told})"),
         None => mode,
     };
-    Error::FreeBody { body: named(model, connectivity, parts, moving), mode }
+    Error::FreeBody { subdomain: named(model, connectivity, parts, moving), mode }
 }
 
 /// The bodies of some parts, the first before the others; a piece by its place.
 fn named(model: &Model, connectivity: &[Connectivity], parts: &[RigidPiece], moving: &[usize]) -> String {
-    let mut names: Vec<&str> = moving.iter().map(|&p| model.bodies[parts[p].body].name.as_str()).collect();
+    let mut names: Vec<&str> =
+        moving.iter().map(|&p| model.subdomains[parts[p].subdomain].name.as_str()).collect();
     names.dedup();
-    let RigidPiece { body, centre: [x, y], .. } = &parts[moving[0]];
-    let piece = if connectivity[*body].pieces.count > 1 {
+    let RigidPiece { subdomain, centre: [x, y], .. } = &parts[moving[0]];
+    let piece = if connectivity[*subdomain].pieces.count > 1 {
         format!("the piece around ({x:.4}, {y:.4}) of ")
     } else {
         String::new()
@@ -208,25 +213,26 @@ fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<RigidPiece>, Vec<
     let mut parts: Vec<RigidPiece> = Vec::new();
     let mut part_of = vec![usize::MAX; model.nodes()];
     let mut hinges = Vec::new();
-    for (b, (body, Connectivity { pieces, .. })) in model.bodies.iter().zip(connectivity).enumerate() {
+    for (b, (subdomain, Connectivity { pieces, .. })) in model.subdomains.iter().zip(connectivity).enumerate()
+    {
         let first = parts.len();
         parts.extend((0..pieces.count).map(|_| RigidPiece {
-            body: b,
+            subdomain: b,
             nodes: Vec::new(),
             centre: [0.0; 2],
             size: 0.0,
         }));
         for (cell, piece) in pieces.of_cell.iter().enumerate() {
-            for node in body.mesh.cells.nodes(cell) {
-                let own = &mut part_of[body.first_node + node];
+            for node in subdomain.mesh.cells.nodes(cell) {
+                let own = &mut part_of[subdomain.first_node + node];
                 *own = (*own).min(first + piece);
             }
         }
-        for node in body.first_node..body.first_node + body.mesh.points.len() {
+        for node in subdomain.first_node..subdomain.first_node + subdomain.mesh.points.len() {
             parts[part_of[node]].nodes.push(node);
         }
         for (node, sharing) in &pieces.hinges {
-            let node = body.first_node + node;
+            let node = subdomain.first_node + node;
             for other in &sharing[1..] {
                 parts[first + other].nodes.push(node); // a support there holds every piece
                 hinges.push((node, first + sharing[0], first + other));
@@ -234,8 +240,8 @@ fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<RigidPiece>, Vec<
         }
     }
     for part in &mut parts {
-        let body = &model.bodies[part.body];
-        let point = |node: usize| body.mesh.points[node - body.first_node];
+        let subdomain = &model.subdomains[part.subdomain];
+        let point = |node: usize| subdomain.mesh.points[node - subdomain.first_node];
         let range = |d: usize| {
             let values = part.nodes.iter().map(|&node| point(node)[d]);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))

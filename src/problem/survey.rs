@@ -1,11 +1,11 @@
-//! The geometry of a joint in numbers, as `midplane check` prints it.
+//! The geometry of an interface in numbers, as `midplane check` prints it.
 
 use super::stiffness::stiffness_number;
-use crate::assembly::{Joint, Model};
+use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::Coupling;
 use crate::law::Law;
 
-/// A joint in numbers.
+/// An interface in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Edges of A and of B that are joined.
@@ -25,9 +25,9 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Measures a joint.
-    pub fn of(model: &Model, joint: &Joint, law: &Law) -> Survey {
-        let coupling = &joint.coupling;
+    /// Measures an interface.
+    pub fn of(model: &Model, interface: &InterfaceOperator, law: &Law) -> Survey {
+        let coupling = &interface.coupling;
         let shares = coupling.shares();
         let joined = [0, 1].map(|side| {
             let mut edges: Vec<usize> = shares.iter().map(|share| share.edges[side]).collect();
@@ -43,7 +43,7 @@ impl Survey {
             length: coupling.midplane.length,
             gap: coupling.midplane.gap,
             kink: kink[0].max(kink[1]).to_degrees(),
-            stiffness_number: stiffness_number(model, joint, law),
+            stiffness_number: stiffness_number(model, interface, law),
         }
     }
 

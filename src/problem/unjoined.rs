@@ -31,17 +31,18 @@ type ContactLine = (f64, [f64; 2]);
 
 /// Connectivity of every subdomain; warnings of boundaries that lie on each other and that nothing joins.
 pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
-    let pieces: Vec<Result<Pieces>> = model.bodies.par_iter().map(|body| body.mesh.pieces()).collect();
+    let pieces: Vec<Result<Pieces>> =
+        model.subdomains.par_iter().map(|subdomain| subdomain.mesh.pieces()).collect();
     let pieces = pieces.into_iter().collect::<Result<Vec<Pieces>>>()?;
     let mut taken = JoinedEdges::default();
     plans.iter().for_each(|plan| taken.add(&plan.sides));
-    let meshes: Vec<&Mesh> = model.bodies.iter().map(|body| &body.mesh).collect();
-    let free = |bodies: [usize; 2], edges: [&Edge; 2]| !taken.both(bodies, edges);
+    let meshes: Vec<&Mesh> = model.subdomains.iter().map(|subdomain| &subdomain.mesh).collect();
+    let free = |subdomains: [usize; 2], edges: [&Edge; 2]| !taken.both(subdomains, edges);
     let touches = coinciding(&meshes, &free)?;
     let mut apart: BTreeMap<[usize; 2], ContactLine> = BTreeMap::new();
     let mut within: BTreeMap<(usize, bool), ContactLine> = BTreeMap::new();
     for touch in touches.iter().filter(|touch| is_line(model, touch)) {
-        let [a, b] = touch.bodies;
+        let [a, b] = touch.subdomains;
         if a == b {
             let [one, two] = [0, 1].map(|side| pieces[a].of_cell[touch.edges[side][0].cell]);
             add(within.entry((a, one != two)).or_default(), touch);
@@ -49,15 +50,15 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
             add(apart.entry([a, b]).or_default(), touch);
         }
     }
-    let lines = |body: usize| within.get(&(body, true)).copied();
+    let lines = |subdomain: usize| within.get(&(subdomain, true)).copied();
     let found: Vec<Connectivity> = pieces
         .into_iter()
         .enumerate()
-        .map(|(body, pieces)| Connectivity { pieces, lines: lines(body) })
+        .map(|(subdomain, pieces)| Connectivity { pieces, lines: lines(subdomain) })
         .collect();
-    let unconnected = within.iter().map(|(&(body, pieces), line)| {
-        let own = &model.bodies[body];
-        let what = match found[body].told(own).filter(|_| pieces) {
+    let unconnected = within.iter().map(|(&(subdomain, pieces), line)| {
+        let own = &model.subdomains[subdomain];
+        let what = match found[subdomain].told(own).filter(|_| pieces) {
             Some(told) => format!("the mesh of {told}"),
             None => format!("boundaries of {} {} and share no nodes", own.name, on_each_other(own, line)),
         };
@@ -65,7 +66,7 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
         Warning::new(Code::Unconnected, what, help)
     });
     let unjoined = apart.iter().map(|(&[a, b], (length, middle))| {
-        let [a, b] = [&model.bodies[a], &model.bodies[b]];
+        let [a, b] = [&model.subdomains[a], &model.subdomains[b]];
         let (length, place) = (short(a, *length), near(a, *middle));
         let what = format!("{} and {} touch along {length} near {place} and no interface joins them", a.name, b.name);
         let help = "they pass through each other: add an interface, or look at the curves and patterns of those there are";
@@ -77,11 +78,11 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
 
 impl Connectivity {
     /// Nodes of the pieces of a subdomain; none if it is in one.
-    pub(super) fn nodes(&self, body: &Body) -> Vec<Vec<usize>> {
+    pub(super) fn nodes(&self, subdomain: &Body) -> Vec<Vec<usize>> {
         let Pieces { count, of_cell, .. } = &self.pieces;
         let mut nodes = vec![Vec::new(); if *count < 2 { 0 } else { *count }];
         for (cell, &piece) in of_cell.iter().enumerate().filter(|_| *count > 1) {
-            nodes[piece].extend_from_slice(body.mesh.cells.nodes(cell));
+            nodes[piece].extend_from_slice(subdomain.mesh.cells.nodes(cell));
         }
         for piece in &mut nodes {
             piece.sort_unstable();
@@ -91,14 +92,17 @@ impl Connectivity {
     }
 
     /// "up falls into 2 pieces that share only the node at (1, 0.5)"; nothing of a subdomain in one piece.
-    pub(super) fn told(&self, body: &Body) -> Option<String> {
+    pub(super) fn told(&self, subdomain: &Body) -> Option<String> {
         let Pieces { count, hinges, .. } = &self.pieces;
         if *count < 2 {
             return None;
         }
-        let places: Vec<String> =
-            hinges.iter().take(NAMED).map(|(node, _)| near(body, body.mesh.points[*node])).collect();
-        let mut text = format!("{} falls into {count} pieces that share ", body.name);
+        let places: Vec<String> = hinges
+            .iter()
+            .take(NAMED)
+            .map(|(node, _)| near(subdomain, subdomain.mesh.points[*node]))
+            .collect();
+        let mut text = format!("{} falls into {count} pieces that share ", subdomain.name);
         match hinges.len() {
             0 => text.push_str("no node"),
             1 => text.push_str(&format!("only the node at {}", places[0])),
@@ -106,25 +110,25 @@ impl Connectivity {
             n => text.push_str(&format!("only {n} nodes, such as those at {}", places.join(", "))),
         }
         if let Some(line) = &self.lines {
-            text.push_str(&format!(" and {}", on_each_other(body, line)));
+            text.push_str(&format!(" and {}", on_each_other(subdomain, line)));
         }
         Some(text)
     }
 }
 
 /// "lie on each other along 2 near (1, 0.5)".
-fn on_each_other(body: &Body, (length, middle): &ContactLine) -> String {
-    format!("lie on each other along {} near {}", short(body, *length), near(body, *middle))
+fn on_each_other(subdomain: &Body, (length, middle): &ContactLine) -> String {
+    format!("lie on each other along {} near {}", short(subdomain, *length), near(subdomain, *middle))
 }
 
 /// True unless the boundaries only meet at a point.
 fn is_line(model: &Model, touch: &Touch) -> bool {
-    let length = |body: usize, edge: &Edge| {
-        let [p, q] = [0, 1].map(|i| model.bodies[body].mesh.points[edge.nodes[i]]);
+    let length = |subdomain: usize, edge: &Edge| {
+        let [p, q] = [0, 1].map(|i| model.subdomains[subdomain].mesh.points[edge.nodes[i]]);
         (q[0] - p[0]).hypot(q[1] - p[1])
     };
-    let sides = touch.bodies.iter().zip(&touch.edges);
-    let lengths = sides.flat_map(|(&body, edges)| edges.iter().map(move |edge| length(body, edge)));
+    let sides = touch.subdomains.iter().zip(&touch.edges);
+    let lengths = sides.flat_map(|(&subdomain, edges)| edges.iter().map(move |edge| length(subdomain, edge)));
     touch.length > MEETING * lengths.fold(f64::INFINITY, f64::min)
 }
 
@@ -137,13 +141,13 @@ fn add((length, middle): &mut ContactLine, touch: &Touch) {
 }
 
 /// "(1, 0.5)".
-fn near(body: &Body, [x, y]: [f64; 2]) -> String {
-    format!("({}, {})", short(body, x), short(body, y))
+fn near(subdomain: &Body, [x, y]: [f64; 2]) -> String {
+    format!("({}, {})", short(subdomain, x), short(subdomain, y))
 }
 
 /// A length with as many decimals as the extent of the mesh asks for, and no zeros behind them.
-fn short(body: &Body, value: f64) -> String {
-    let extent = body.mesh.points.iter().flatten().fold(0.0_f64, |extent, x| extent.max(x.abs()));
+fn short(subdomain: &Body, value: f64) -> String {
+    let extent = subdomain.mesh.points.iter().flatten().fold(0.0_f64, |extent, x| extent.max(x.abs()));
     let decimals = (DIGITS - 1.0 - extent.log10().floor()).clamp(0.0, 30.0) as usize;
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

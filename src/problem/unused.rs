@@ -17,17 +17,17 @@ pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<Warning> {
         let within = format!("{name}.");
         texts.contains(name) || texts.iter().any(|text| text.starts_with(&within))
     };
-    let lines = model.bodies.iter().map(|body| {
-        let groups = body.mesh.groups.iter().filter(|(_, group)| group.kind() != "surface");
+    let lines = model.subdomains.iter().map(|subdomain| {
+        let groups = subdomain.mesh.groups.iter().filter(|(_, group)| group.kind() != "surface");
         // those who share the mesh share its groups
-        let sharing = || model.bodies.iter().filter(|other| other.mesh.file == body.mesh.file);
+        let sharing = || model.subdomains.iter().filter(|other| other.mesh.file == subdomain.mesh.file);
         let used = |name: &str| sharing().any(|other| used(&format!("{}.{name}", other.name)));
         let unused = groups.map(|(name, _)| name).filter(|name| !used(name));
-        (&body.name, unused.map(String::as_str).collect::<Vec<&str>>())
+        (&subdomain.name, unused.map(String::as_str).collect::<Vec<&str>>())
     });
     let told = lines.filter(|(_, unused)| !unused.is_empty());
-    told.map(|(body, unused)| {
-        let what = format!("subdomain {body}: nothing uses its group {}", unused.join(", "));
+    told.map(|(subdomain, unused)| {
+        let what = format!("subdomain {subdomain}: nothing uses its group {}", unused.join(", "));
         Warning::new(Code::UnusedGroups, what, "fine if it is meant; else look for a misspelt name")
     })
     .collect()

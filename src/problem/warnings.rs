@@ -1,12 +1,12 @@
-//! What the user should know of a joint before believing the result.
+//! What the user should know of an interface before believing the result.
 
 use super::curve::PlannedInterface;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
-use crate::assembly::{Body, Joint, Model};
+use crate::assembly::{Body, InterfaceOperator, Model};
 use crate::error::{Code, Warning};
 use crate::scene::{CouplingKind, Scene};
 
-/// A gap below this is rounding. Of the length of the joint.
+/// A gap below this is rounding. Of the length of the interface.
 const GAP_SEEN: f64 = 1e-9;
 /// Coordinates that resolve no finer than this reach the tractions. Of the smallest edge.
 const RESOLVED: f64 = 1e-10;
@@ -15,74 +15,80 @@ const BAD: f64 = 0.3;
 /// Linear elements lock in plane strain from this Poisson's ratio on.
 const LOCKING: f64 = 0.49;
 
-/// The warnings of one joint.
-pub(super) fn of_joint(scene: &Scene, model: &Model, joint: &Joint, plan: &PlannedInterface) -> Vec<Warning> {
+/// The warnings of one interface.
+pub(super) fn of_interface(
+    scene: &Scene,
+    model: &Model,
+    interface: &InterfaceOperator,
+    plan: &PlannedInterface,
+) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let (name, law) = (&joint.name, &plan.interface.law);
-    let coupling = &joint.coupling;
+    let (name, law) = (&interface.name, &plan.stated.law);
+    let coupling = &interface.coupling;
     let segments = coupling.midplane.segments.len();
     let matched = (0..2).all(|side| coupling.edges(side) == segments);
-    let number = stiffness_number(model, joint, law);
-    if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.interface) {
+    let number = stiffness_number(model, interface, law);
+    if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.stated) {
         let what = format!("interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions");
         warnings.push(Warning::new(Code::Rounding, what, "less stiff springs say as much"));
     }
     warnings.extend(law.warnings().into_iter().map(|warning| warning.of(&format!("interface {name}"))));
-    if plan.interface.coupling == CouplingKind::Pointwise && !matched && number > 1.0 {
+    if plan.stated.coupling == CouplingKind::Pointwise && !matched && number > 1.0 {
         let what =
             format!("interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates");
         warnings.push(Warning::new(Code::Oscillation, what, "use \"projected\""));
     }
     let [least, most] = coupling.midplane.gap;
     let widest = most.max(-least);
-    if coupling.midplane.apart > GAP_SEEN * coupling.midplane.length && plan.interface.initial_gap.is_none() {
+    if coupling.midplane.apart > GAP_SEEN * coupling.midplane.length && plan.stated.initial_gap.is_none() {
         let what = format!("interface {name}: the sides are up to {widest:.3e} apart");
-        let cure = "this is not a stress: draw them on one line, or give \"initial_gap\" if it is meant";
-        warnings.push(Warning::new(Code::Apart, what, cure));
+        let help = "this is not a stress: draw them on one line, or give \"initial_gap\" if it is meant";
+        warnings.push(Warning::new(Code::Apart, what, help));
     }
-    warnings.extend(far_away(joint));
+    warnings.extend(far_away(interface));
     for curve in plan.sides.iter().flatten() {
-        let body = &model.bodies[curve.body];
+        let subdomain = &model.subdomains[curve.subdomain];
         let mut cells: Vec<usize> = curve.edges.iter().map(|edge| edge.cell).collect();
         cells.sort_unstable();
         cells.dedup();
         let bad: Vec<(f64, usize)> = cells
             .iter()
-            .map(|&cell| (body.mesh.quality(cell), cell))
+            .map(|&cell| (subdomain.mesh.quality(cell), cell))
             .filter(|(quality, _)| *quality < BAD)
             .collect();
         if let Some((worst, cell)) = bad.iter().min_by(|p, q| p.0.total_cmp(&q.0)) {
-            let [x, y] = body.mesh.points[body.mesh.cells.nodes(*cell)[0]];
+            let [x, y] = subdomain.mesh.points[subdomain.mesh.cells.nodes(*cell)[0]];
             let what = format!(
                 "interface {name}: {} of {} cells of {} beside it have a scaled Jacobian below {BAD}, the worst {worst:.2} near ({x:.4}, {y:.4})",
                 bad.len(),
                 cells.len(),
-                body.name
+                subdomain.name
             );
-            let cure = "stresses there mean little: mesh it with better angles";
-            warnings.push(Warning::new(Code::BadCells, what, cure));
+            let help = "stresses there mean little: mesh it with better angles";
+            warnings.push(Warning::new(Code::BadCells, what, help));
         }
     }
     warnings
 }
 
 /// Bodies in plane strain whose elements lock: their volume cannot change, and linear elements know no other way to deform.
-pub(super) fn locking(bodies: &[Body]) -> Vec<Warning> {
-    let locks = |body: &&Body| {
-        body.elasticity.out_of_plane > LOCKING && body.mesh.cells.shapes.iter().any(|s| !s.is_quadratic())
+pub(super) fn locking(subdomains: &[Body]) -> Vec<Warning> {
+    let locks = |subdomain: &&Body| {
+        subdomain.elasticity.out_of_plane > LOCKING
+            && subdomain.mesh.cells.shapes.iter().any(|s| !s.is_quadratic())
     };
-    let told = bodies.iter().filter(locks).map(|body| {
-        let nu = body.elasticity.out_of_plane; // ν in plane strain, zero in plane stress
-        let what = format!("subdomain {}: linear elements lock at a Poisson's ratio of {nu}", body.name);
+    let told = subdomains.iter().filter(locks).map(|subdomain| {
+        let nu = subdomain.elasticity.out_of_plane; // ν in plane strain, zero in plane stress
+        let what = format!("subdomain {}: linear elements lock at a Poisson's ratio of {nu}", subdomain.name);
         Warning::new(Code::Locking, what, "use T6 or Q8: Mesh.ElementOrder = 2 in the .geo")
     });
     told.collect()
 }
 
-/// A joint so far from the origin, for its edges, that rounding of its coordinates is seen.
-fn far_away(joint: &Joint) -> Option<Warning> {
+/// An interface so far from the origin, for its edges, that rounding of its coordinates is seen.
+fn far_away(interface: &InterfaceOperator) -> Option<Warning> {
     let (mut farthest, mut smallest) = (0.0_f64, f64::INFINITY);
-    let coupling = &joint.coupling;
+    let coupling = &interface.coupling;
     for side in 0..2 {
         for e in 0..coupling.edges(side) {
             let line = coupling.line(side, e);
@@ -94,7 +100,7 @@ fn far_away(joint: &Joint) -> Option<Warning> {
     (resolved > RESOLVED).then(|| {
         let what = format!(
             "interface {}: {farthest:.1e} away from the origin, coordinates resolve {resolved:.0e} of its smallest edge",
-            joint.name
+            interface.name
         );
         Warning::new(Code::FarAway, what, "move the origin nearer")
     })

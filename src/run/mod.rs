@@ -60,8 +60,8 @@ pub enum Event<'a> {
         /// True if it was there already.
         reused: bool,
     },
-    /// A joint is built.
-    Joint(&'a crate::assembly::Joint),
+    /// An interface is built.
+    Interface(&'a crate::assembly::InterfaceOperator),
     /// Something the user should know before believing the result.
     Warning(&'a Warning),
     /// An increment is done.
@@ -113,7 +113,7 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
     let Prepared { scene, name, problem, folder, mut clock } =
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
-    let means = Means { shelf: shared.map(|shared| shared.shelf.clone()), ..Means::default() };
+    let means = Means { cache: shared.map(|shared| shared.cache.clone()), ..Means::default() };
     let equations = Equations::new(&problem, means, &mut clock)?;
     let mut history = History::new(&problem, &equations, clock);
     let mut results = Results::new(&scene, &name, &problem, folder);
@@ -144,12 +144,12 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
 /// Goes through the history, writes every increment and tells of it.
 fn follow(history: &mut History, results: &mut Results, listen: Listener) -> Result<()> {
     let problem = results.problem;
-    let total: usize = problem.stages.iter().map(|stage| stage.increments).sum();
+    let total: usize = problem.steps.iter().map(|step| step.increments).sum();
     while let Some(increment) = history.next()? {
         history.clock().begin("write");
         let (state, totals) = (history.state(), history.totals());
         if let Some(row) = results.write(&increment, state, totals)? {
-            let (number, of) = (increment.number, increment.stage.increments);
+            let (number, of) = (increment.number, increment.step.increments);
             listen(Event::Increment { row: &row, number, of, total, totals, problem, state });
         }
     }

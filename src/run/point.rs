@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::Vector2;
 
-use crate::error::{At, Error, Result, name_cure};
+use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
 use crate::law::{Integration, Law, State};
 use crate::scene;
@@ -12,39 +12,39 @@ use crate::scene;
 /// Rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Vec<PathRow>, Option<Error>);
 
-/// Drives the law of `interface` along the program in `path`; without `stepping` the scene's `law_tolerance` rules.
+/// Drives the law of an interface along the program in `path`; without `stepping` the scene's `law_tolerance` rules.
 pub fn drive(
     scene: &Path,
     settings: &[String],
-    interface: &str,
+    name: &str,
     path: &Path,
-    stepping: Option<Integration>,
+    integration: Option<Integration>,
 ) -> Result<Driven> {
     let scene = scene::read(scene, settings)?;
-    let Some(joint) = scene.interfaces.get(interface) else {
-        let cure = name_cure(interface, scene.interfaces.keys().map(String::as_str));
-        return Err(scene.source.refuse(&["interfaces"], format!("no interface \"{interface}\""), cure));
+    let Some(interface) = scene.interfaces.get(name) else {
+        let help = name_help(name, scene.interfaces.keys().map(String::as_str));
+        return Err(scene.source.error_at(&["interfaces"], format!("no interface \"{name}\""), help));
     };
     let mut initial = [0.0; 2];
-    for (i, value) in joint.initial_traction.iter().enumerate() {
-        let place = ["interfaces", interface, "initial_traction", &i.to_string()];
+    for (i, value) in interface.initial_traction.iter().enumerate() {
+        let place = ["interfaces", name, "initial_traction", &i.to_string()];
         let what = format!("{value} depends on the place, and one point has none");
-        let cure = "give the numbers at your point by --set";
-        initial[i] = value.constant().ok_or_else(|| scene.source.refuse(&place, what, cure))?;
+        let help = "give the numbers at your point by --set";
+        initial[i] = value.constant().ok_or_else(|| scene.source.error_at(&place, what, help))?;
     }
-    let start = start(&joint.law, initial)
-        .map_err(|law| scene.source.refuse(&["interfaces", interface, law.key], law.what, law.cure))?;
-    let stepping = stepping.unwrap_or(Integration::Tolerance(joint.law_tolerance));
+    let start = start(&interface.law, initial)
+        .map_err(|law| scene.source.error_at(&["interfaces", name, law.key], law.what, law.help))?;
+    let integration = integration.unwrap_or(Integration::Tolerance(interface.law_tolerance));
     let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
     let program: path::LawPath = serde_json::from_str(&text).map_err(|error| {
         let message = error.to_string();
         let what = message.split(" at line ").next().unwrap_or(&message);
-        let cure = "a path holds \"program\": segments with \"n\", \"t\" and \"points\"";
-        refuse(path, error.line(), "", what, cure)
+        let help = "a path holds \"program\": segments with \"n\", \"t\" and \"points\"";
+        error_at(path, error.line(), "", what, help)
     })?;
-    match path::drive(&joint.law, &program, &start, stepping) {
+    match path::drive(&interface.law, &program, &start, integration) {
         Ok(rows) => Ok((rows, None)),
-        Err(PathError::Program { key, what, cure }) => Err(refuse(path, 0, &key, &what, &cure)),
+        Err(PathError::Program { key, what, help }) => Err(error_at(path, 0, &key, &what, &help)),
         Err(PathError::NoEquilibrium { s, reason, rows }) => {
             let step = path.display().to_string();
             let (increment, kept) = (rows.len(), rows.len().saturating_sub(1));
@@ -58,7 +58,7 @@ fn start(law: &Law, initial_traction: [f64; 2]) -> std::result::Result<State, cr
     law.initial_state(Vector2::from(initial_traction), 0.0)
 }
 
-fn refuse(file: &Path, line: usize, key: &str, what: &str, cure: &str) -> Error {
+fn error_at(file: &Path, line: usize, key: &str, what: &str, help: &str) -> Error {
     let at = At { file: file.into(), line, key: key.into(), ..At::default() };
-    Error::Text { at: Box::new(at), what: what.into(), cure: cure.into() }
+    Error::Text { at: Box::new(at), what: what.into(), help: help.into() }
 }

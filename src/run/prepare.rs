@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::folder::Folder;
-use super::shared::{Shared, joints_key};
+use super::shared::{Shared, interfaces_key};
 use super::{Event, Listener, Options};
 use crate::error::Result;
 use crate::history::Clock;
@@ -48,15 +48,15 @@ pub(super) fn prepare_sharing(
     clock.begin("bind");
     let mut problem = match shared {
         Some(shared) => {
-            let key = joints_key(&scene, &files, &file_of);
-            let known = shared.joints(&key);
+            let key = interfaces_key(&scene, &files, &file_of);
+            let known = shared.interfaces(&key);
             if known.is_some() {
                 listen(Event::Reused("joints"));
             }
-            let joints = known.as_deref().map_or(&[][..], Vec::as_slice);
-            let problem = Problem::bind_joined(&scene, meshes, joints)?;
+            let interfaces = known.as_deref().map_or(&[][..], Vec::as_slice);
+            let problem = Problem::bind_joined(&scene, meshes, interfaces)?;
             if known.is_none() {
-                shared.keep_joints(key, &problem.model.joints);
+                shared.keep_interfaces(key, &problem.model.interfaces);
             }
             problem
         }
@@ -64,8 +64,8 @@ pub(super) fn prepare_sharing(
     };
     warnings.append(&mut problem.warnings);
     problem.warnings = warnings;
-    for joint in &problem.model.joints {
-        listen(Event::Joint(joint));
+    for interface in &problem.model.interfaces {
+        listen(Event::Interface(interface));
     }
     for warning in &problem.warnings {
         listen(Event::Warning(warning));
@@ -152,8 +152,8 @@ fn files(scene: &Scene) -> Result<(Vec<Origin>, Vec<usize>)> {
         let path = base.join(file);
         if !path.is_file() {
             let what = format!("there is no file {}", path.display());
-            let cure = format!("files are named relative to {}", base.display());
-            return Err(scene.source.refuse(&["subdomains", name, key], what, cure));
+            let help = format!("files are named relative to {}", base.display());
+            return Err(scene.source.error_at(&["subdomains", name, key], what, help));
         }
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let wanted = if key == "msh" && mesh::is_earlier_format(&path)? {

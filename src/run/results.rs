@@ -45,11 +45,13 @@ impl<'a> Results<'a> {
         let wanted = match fields {
             Fields::Every => true,
             Fields::Step => increment.ended || increment.last,
-            Fields::Last => increment.ended || increment.last && increment.step + 1 == problem.stages.len(),
+            Fields::Last => {
+                increment.ended || increment.last && increment.step_number + 1 == problem.steps.len()
+            }
             Fields::None => false,
         };
         if wanted && self.stored < increment.increment {
-            let time = increment.step as f64 + increment.load_factor;
+            let time = increment.step_number as f64 + increment.load_factor;
             writer.fields(&problem.model, &state.snapshot, increment.increment, time)?;
             self.stored = increment.increment;
         }
@@ -61,7 +63,7 @@ impl<'a> Results<'a> {
             return Ok(None); // its row is written
         }
         let row = HistoryRow {
-            step: increment.stage.name.clone(),
+            step: increment.step.name.clone(),
             increment: increment.increment,
             load_factor: increment.load_factor,
             iterations: increment.iterations,

@@ -1,4 +1,4 @@
-//! What several runs of one process share: mesh files, meshes, joints, condensed bodies.
+//! What several runs of one process share: mesh files, meshes, interfaces, condensed bodies.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use serde_json::Value;
 
 use super::Options;
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 use crate::error::Result;
 use crate::history::memory;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
@@ -25,9 +25,9 @@ pub struct Shared {
     gmsh: Gmsh,
     meshing: Mutex<()>,
     meshes: Mutex<HashMap<PathBuf, Arc<Mesh>>>,
-    joints: Mutex<HashMap<String, Arc<Vec<Joint>>>>,
+    interfaces: Mutex<HashMap<String, Arc<Vec<InterfaceOperator>>>>,
     /// Condensed bodies.
-    pub(super) shelf: Arc<SubdomainCache>,
+    pub(super) cache: Arc<SubdomainCache>,
 }
 
 impl Shared {
@@ -39,8 +39,8 @@ impl Shared {
             gmsh: Gmsh::new(&options.gmsh, options.gmsh_limit),
             meshing: Mutex::default(),
             meshes: Mutex::default(),
-            joints: Mutex::default(),
-            shelf: Arc::new(SubdomainCache::new(room)),
+            interfaces: Mutex::default(),
+            cache: Arc::new(SubdomainCache::new(room)),
         }
     }
 
@@ -65,19 +65,19 @@ impl Shared {
         Ok(mesh)
     }
 
-    /// The joints of a scene on these meshes, if some run has bound them.
-    pub(super) fn joints(&self, key: &str) -> Option<Arc<Vec<Joint>>> {
-        lock(&self.joints).get(key).cloned()
+    /// The interfaces of a scene on these meshes, if some run has bound them.
+    pub(super) fn interfaces(&self, key: &str) -> Option<Arc<Vec<InterfaceOperator>>> {
+        lock(&self.interfaces).get(key).cloned()
     }
 
-    /// Keeps the joints of a scene.
-    pub(super) fn keep_joints(&self, key: String, joints: &[Joint]) {
-        lock(&self.joints).insert(key, Arc::new(joints.to_vec()));
+    /// Keeps the interfaces of a scene.
+    pub(super) fn keep_interfaces(&self, key: String, interfaces: &[InterfaceOperator]) {
+        lock(&self.interfaces).insert(key, Arc::new(interfaces.to_vec()));
     }
 }
 
-/// All that decides the joints of a scene on these meshes: everything but laws, materials, loads and output.
-pub(super) fn joints_key(scene: &Scene, files: &[PathBuf], file_of: &[usize]) -> String {
+/// All that decides the interfaces of a scene on these meshes: everything but laws, materials, loads and output.
+pub(super) fn interfaces_key(scene: &Scene, files: &[PathBuf], file_of: &[usize]) -> String {
     let interface = |interface| {
         let mut value = serde_json::to_value(interface).unwrap_or_default();
         for key in ["law", "law_tolerance", "initial_traction"] {

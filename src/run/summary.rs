@@ -25,7 +25,7 @@ pub(super) struct Summary<'a> {
     /// Seconds by stage.
     time: IndexMap<&'static str, f64>,
     peak_memory_bytes: Option<u64>,
-    /// `W04 interface joint: why; cure`.
+    /// `W04 interface interface: why; help`.
     warnings: Vec<String>,
 }
 
@@ -64,7 +64,7 @@ struct SolutionSummary {
     /// Parts that were sought and not kept.
     rejected: usize,
     factorisations: usize,
-    /// Where the path of equilibria turned: after which increment, in which step, at which load level.
+    /// Where the path of equilibria turned: after which increment, in which step, at which load factor.
     turns: Vec<(usize, String, f64)>,
     /// Snaps to another branch of equilibria.
     snaps: Vec<Snap>,
@@ -89,7 +89,7 @@ pub(super) struct Balance {
     whole: Resultants,
     /// |load + reaction| over the sum of all nodal loads and reactions, by magnitude.
     imbalance: f64,
-    /// The same by subdomain; what is left there crosses its joints.
+    /// The same by subdomain; what is left there crosses its interfaces.
     subdomains: IndexMap<String, Resultants>,
 }
 
@@ -105,16 +105,16 @@ struct Resultants {
 /// Sums loads and reactions.
 pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
     let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
-    let forces: Vec<(String, Resultants)> = (model.bodies.iter().enumerate())
-        .map(|(b, body)| {
+    let forces: Vec<(String, Resultants)> = (model.subdomains.iter().enumerate())
+        .map(|(b, subdomain)| {
             let dofs = model.dofs_of(b);
             let (force, reactions) = (&force[dofs.clone()], &reactions[dofs]);
             let moment = |values: &[f64]| {
                 let of = |(x, f): (&[f64; 2], &[f64])| x[0] * f[1] - x[1] * f[0];
-                body.mesh.points.iter().zip(values.chunks_exact(model.components)).map(of).sum::<f64>()
+                subdomain.mesh.points.iter().zip(values.chunks_exact(model.components)).map(of).sum::<f64>()
             };
             let moment = [moment(force), moment(reactions)];
-            (body.name.clone(), Resultants { load: sum(force), reaction: sum(reactions), moment })
+            (subdomain.name.clone(), Resultants { load: sum(force), reaction: sum(reactions), moment })
         })
         .collect();
     let moments = [0, 1].map(|k| forces.iter().map(|(_, own)| own.moment[k]).sum());
@@ -135,26 +135,26 @@ pub(super) fn summary<'a>(
     stopped: Option<String>,
 ) -> Summary<'a> {
     let model = &problem.model;
-    let subdomains = model.bodies.iter().map(|body| {
+    let subdomains = model.subdomains.iter().map(|subdomain| {
         let mut cells = BTreeMap::new();
-        for shape in &body.mesh.cells.shapes {
+        for shape in &subdomain.mesh.cells.shapes {
             *cells.entry(shape.label()).or_insert(0) += 1;
         }
-        (body.name.as_str(), SubdomainSize { nodes: body.mesh.points.len(), cells })
+        (subdomain.name.as_str(), SubdomainSize { nodes: subdomain.mesh.points.len(), cells })
     });
-    let interfaces = model.joints.iter().zip(&problem.laws).map(|(joint, (law, _))| {
-        let midplane = &joint.coupling.midplane;
+    let interfaces = model.interfaces.iter().zip(&problem.laws).map(|(interface, (law, _))| {
+        let midplane = &interface.coupling.midplane;
         let size = InterfaceSize {
             edges_a: midplane.a.edges(),
             edges_b: midplane.b.edges(),
             segments: midplane.segments.len(),
-            grid_nodes: joint.coupling.grid.len(),
-            law_points: joint.coupling.points.len(),
+            grid_nodes: interface.coupling.grid.len(),
+            law_points: interface.coupling.points.len(),
             length: midplane.length,
             gap: midplane.gap,
-            stiffness_number: stiffness_number(model, joint, law),
+            stiffness_number: stiffness_number(model, interface, law),
         };
-        (joint.name.as_str(), size)
+        (interface.name.as_str(), size)
     });
     let told = totals.warnings(problem.solution.path_tolerance);
     let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();

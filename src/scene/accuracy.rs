@@ -102,17 +102,17 @@ fn multiply_densities(scene: &mut Value, source: &Source, factor: f64) -> Result
         .as_array()
         .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_string).collect());
     for (i, name) in listed.iter().enumerate() {
-        let Some((body, parameter)) = name.split_once('.') else { continue };
-        let Some(subdomain) = subdomain(scene, body) else { continue };
+        let Some((owner, parameter)) = name.split_once('.') else { continue };
+        let Some(subdomain) = subdomain(scene, owner) else { continue };
         let stated = subdomain.get("parameters").and_then(|all| all.get(parameter)).and_then(Value::as_f64);
         let value = match stated {
             Some(value) => value,
             None => declared(subdomain, source, parameter)?.flatten().ok_or_else(|| {
-                let what = format!("no number to multiply: {body} does not declare {parameter} with one");
-                let cure = format!(
+                let what = format!("no number to multiply: {owner} does not declare {parameter} with one");
+                let help = format!(
                     "write DefineConstant[ {parameter} = 8 ] in its .geo, or set it in \"parameters\""
                 );
-                source.refuse(&["density", &i.to_string()], what, cure)
+                source.error_at(&["density", &i.to_string()], what, help)
             })?,
         };
         set_parameter(subdomain, parameter, scaled(value, factor));

@@ -2,7 +2,7 @@
 
 use super::named::{check_group, check_name};
 use super::{Load, Plane, Scene, Step, Subdomain, split_group};
-use crate::error::{Result, name_cure};
+use crate::error::{Result, name_help};
 use crate::scene::probe::Probe;
 
 impl Scene {
@@ -10,7 +10,7 @@ impl Scene {
     pub(super) fn check(&self) -> Result<()> {
         if !(self.thickness > 0.0 && self.thickness.is_finite()) {
             let what = format!("{} is not a thickness", self.thickness);
-            return Err(self.source.refuse(&["thickness"], what, "it must be positive"));
+            return Err(self.source.error_at(&["thickness"], what, "it must be positive"));
         }
         self.check_materials()?;
         self.check_subdomains()?;
@@ -18,7 +18,7 @@ impl Scene {
             self.check_interface(name, interface)?;
         }
         if self.steps.is_empty() {
-            return Err(self.source.refuse(
+            return Err(self.source.error_at(
                 &["steps"],
                 "there is no step",
                 "add one with \"name\" and \"load\"",
@@ -28,45 +28,45 @@ impl Scene {
             self.check_step(&i.to_string(), step)?;
         }
         for (i, name) in self.density.iter().enumerate() {
-            let (body, parameter) = split_group(name);
-            if parameter.is_none() || !self.subdomains.contains_key(body) {
+            let (subdomain, parameter) = split_group(name);
+            if parameter.is_none() || !self.subdomains.contains_key(subdomain) {
                 let what = format!("\"{name}\" is no parameter of a subdomain");
-                let cure = name_cure(body, self.subdomains.keys().map(String::as_str));
-                let cure = format!("write <subdomain>.<parameter>; {cure}");
-                return Err(self.source.refuse(&["density", &i.to_string()], what, cure));
+                let help = name_help(subdomain, self.subdomains.keys().map(String::as_str));
+                let help = format!("write <subdomain>.<parameter>; {help}");
+                return Err(self.source.error_at(&["density", &i.to_string()], what, help));
             }
         }
         for (name, text) in &self.output.history {
             let path = ["output", "history", name];
-            Probe::parse(text, self).map_err(|(what, cure)| self.source.refuse(&path, what, cure))?;
+            Probe::parse(text, self).map_err(|(what, help)| self.source.error_at(&path, what, help))?;
         }
         Ok(())
     }
 
     fn check_materials(&self) -> Result<()> {
         for (name, material) in &self.materials {
-            let refuse =
-                |key, what: String, cure| Err(self.source.refuse(&["materials", name, key], what, cure));
+            let error_at =
+                |key, what: String, help| Err(self.source.error_at(&["materials", name, key], what, help));
             let nu = material.poisson;
             let top_is_in = nu < 0.5 || (nu == 0.5 && self.plane == Plane::Stress);
             if !(material.young > 0.0 && material.young.is_finite()) {
-                return refuse(
+                return error_at(
                     "young",
                     format!("Young's modulus {} is not a stiffness", material.young),
                     "it must be positive",
                 );
             }
             if !(nu > -1.0 && top_is_in) {
-                let cure = match self.plane {
+                let help = match self.plane {
                     Plane::Strain => {
                         "it must lie above -1 and below 0.5 (an incompressible body needs plane stress)"
                     }
                     Plane::Stress => "it must lie above -1 and not above 0.5",
                 };
-                return refuse("poisson", format!("Poisson's ratio {nu} is out of range"), cure);
+                return error_at("poisson", format!("Poisson's ratio {nu} is out of range"), help);
             }
             if !(material.density >= 0.0 && material.density.is_finite()) {
-                return refuse(
+                return error_at(
                     "density",
                     format!("{} is not a density", material.density),
                     "it must be zero or more",
@@ -78,7 +78,7 @@ impl Scene {
 
     fn check_subdomains(&self) -> Result<()> {
         if self.subdomains.is_empty() {
-            return Err(self.source.refuse(
+            return Err(self.source.error_at(
                 &["subdomains"],
                 "there is no subdomain",
                 "add one with \"geo\" and \"material\"",
@@ -89,16 +89,20 @@ impl Scene {
             check_name(self, &path, name)?;
             match (&subdomain.geo, &subdomain.msh) {
                 (None, None) => {
-                    return Err(self.source.refuse(&path, "neither \"geo\" nor \"msh\"", "give one of them"));
+                    return Err(self.source.error_at(
+                        &path,
+                        "neither \"geo\" nor \"msh\"",
+                        "give one of them",
+                    ));
                 }
                 (Some(_), Some(_)) => {
-                    return Err(self.source.refuse(&path, "both \"geo\" and \"msh\"", "keep one of them"));
+                    return Err(self.source.error_at(&path, "both \"geo\" and \"msh\"", "keep one of them"));
                 }
                 _ => {}
             }
             if subdomain.msh.is_some() && !subdomain.parameters.is_empty() {
                 let path = ["subdomains", name, "parameters"];
-                return Err(self.source.refuse(
+                return Err(self.source.error_at(
                     &path,
                     "a finished mesh takes no parameters",
                     "give \"geo\" in place of \"msh\"",
@@ -107,8 +111,8 @@ impl Scene {
             self.check_shared(name, subdomain)?;
             if !self.materials.contains_key(&subdomain.material) {
                 let what = format!("no material \"{}\"", subdomain.material);
-                let cure = name_cure(&subdomain.material, self.materials.keys().map(String::as_str));
-                return Err(self.source.refuse(&["subdomains", name, "material"], what, cure));
+                let help = name_help(&subdomain.material, self.materials.keys().map(String::as_str));
+                return Err(self.source.error_at(&["subdomains", name, "material"], what, help));
             }
         }
         Ok(())
@@ -133,13 +137,13 @@ impl Scene {
             _ => ("", format!("\"{other}\" and \"{name}\" are the same bodies of {file}")),
         };
         let path: Vec<&str> = ["subdomains", name, key].into_iter().filter(|part| !part.is_empty()).collect();
-        Err(self.source.refuse(&path, what, "give each its own \"surface\" of the mesh"))
+        Err(self.source.error_at(&path, what, "give each its own \"surface\" of the mesh"))
     }
 
     fn check_step(&self, index: &str, step: &Step) -> Result<()> {
         if step.increments == 0 {
             let path = ["steps", index, "increments"];
-            return Err(self.source.refuse(&path, "a step of 0 increments", "give 1 or more"));
+            return Err(self.source.error_at(&path, "a step of 0 increments", "give 1 or more"));
         }
         for (key, groups) in [
             ("fix", step.fix.keys().collect::<Vec<_>>()),
@@ -155,7 +159,7 @@ impl Scene {
         for (group, directions) in &step.fix {
             if directions.is_empty() {
                 let path = ["steps", index, "fix", group];
-                return Err(self.source.refuse(
+                return Err(self.source.error_at(
                     &path,
                     "no direction",
                     "give [\"x\"], [\"y\"] or [\"x\", \"y\"]",
@@ -165,21 +169,25 @@ impl Scene {
         for (group, displace) in &step.displace {
             if displace.components().next().is_none() {
                 let path = ["steps", index, "displace", group];
-                return Err(self.source.refuse(&path, "no direction", "give {\"x\": …}, {\"y\": …} or both"));
+                return Err(self.source.error_at(
+                    &path,
+                    "no direction",
+                    "give {\"x\": …}, {\"y\": …} or both",
+                ));
             }
         }
         for (group, load) in &step.load {
             let needs_curve = !matches!(load, Load::Force(_));
             if split_group(group).1.is_none() {
-                let cure = if needs_curve { "name a curve of it" } else { "name a point of it" };
+                let help = if needs_curve { "name a curve of it" } else { "name a point of it" };
                 let what = format!("\"{group}\" is a whole body");
-                return Err(self.source.refuse(&["steps", index, "load", group], what, cure));
+                return Err(self.source.error_at(&["steps", index, "load", group], what, help));
             }
         }
         for group in step.body_force.keys() {
             if split_group(group).1.is_some() {
                 let path = ["steps", index, "body_force", group];
-                return Err(self.source.refuse(
+                return Err(self.source.error_at(
                     &path,
                     format!("\"{group}\" is not a subdomain"),
                     "name the subdomain alone",
@@ -204,6 +212,6 @@ impl Scene {
         let verb = if keys.len() == 1 { "is" } else { "are" };
         let what = format!("gravity acts on no density: {} {verb} 0", keys.join(" and "));
         let help = "give a material of a subdomain a density, or take a \"body_force\"";
-        Err(self.source.refuse(&["steps", index, "gravity"], what, help))
+        Err(self.source.error_at(&["steps", index, "gravity"], what, help))
     }
 }

@@ -18,7 +18,7 @@ impl Expression {
     /// Compiles a text.
     pub fn parse(text: &str) -> Result<Expression, FormulaFault> {
         let code = grammar::compile(text)?;
-        let whole = |what: String, cure: &str| FormulaFault { span: 0..text.len(), what, cure: cure.into() };
+        let whole = |what: String, help: &str| FormulaFault { span: 0..text.len(), what, help: help.into() };
         let (mut height, mut highest) = (0, 0);
         for op in &code {
             height = height + 1 - op.takes();

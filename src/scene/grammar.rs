@@ -11,7 +11,7 @@
 
 use super::functions::{COMPARISONS, FUNCTIONS};
 use super::op::{FormulaFault, Op, Place, Variable, evaluate};
-use crate::error::name_cure;
+use crate::error::name_help;
 
 /// Longest formula [bytes].
 const LONGEST: usize = 10_000;
@@ -222,8 +222,8 @@ impl<'a> Parser<'a> {
             (None, None) => {
                 let names = Variable::ALL.into_iter().map(Variable::name).chain(["pi", "e"]);
                 let short: String = name.chars().take(AROUND).collect();
-                let cure = name_cure(&short, names.chain(FUNCTIONS.iter().map(|(name, _)| *name)));
-                Err(self.fault(span, &format!("unknown name \"{short}\""), &cure))
+                let help = name_help(&short, names.chain(FUNCTIONS.iter().map(|(name, _)| *name)));
+                Err(self.fault(span, &format!("unknown name \"{short}\""), &help))
             }
         }
     }
@@ -265,7 +265,7 @@ impl<'a> Parser<'a> {
     /// A character that cannot follow.
     fn leftover(&self, c: char) -> FormulaFault {
         let between = "write one of + - * / ^ between two values";
-        let (what, cure) = match c {
+        let (what, help) = match c {
             ')' => ("\")\" closes nothing".into(), "remove it, or open \"(\" before it"),
             ',' => ("\",\" stands outside of a function".into(), "decimals take a point, as in 0.5"),
             '=' => ("a lone \"=\"".into(), "equality is written =="),
@@ -276,21 +276,21 @@ impl<'a> Parser<'a> {
             c if c.is_alphanumeric() || "_(.".contains(c) => ("an operator is missing".into(), between),
             c => (format!("unknown sign \"{c}\""), "a formula has numbers, names, + - * / ^ ( ) , < > == !="),
         };
-        self.fault(self.at..self.at + c.len_utf8(), &what, cure)
+        self.fault(self.at..self.at + c.len_utf8(), &what, help)
     }
 
-    fn fault_here(&self, what: &str, cure: &str) -> FormulaFault {
+    fn fault_here(&self, what: &str, help: &str) -> FormulaFault {
         let length = self.text[self.at..].chars().next().map_or(0, char::len_utf8);
-        self.fault(self.at..self.at + length, what, cure)
+        self.fault(self.at..self.at + length, what, help)
     }
 
-    fn fault(&self, span: std::ops::Range<usize>, what: &str, cure: &str) -> FormulaFault {
+    fn fault(&self, span: std::ops::Range<usize>, what: &str, help: &str) -> FormulaFault {
         let number = self.text[..span.start].chars().count();
         let shown: String = self.text.chars().skip(number.saturating_sub(AROUND)).take(2 * AROUND).collect();
         let left = if number > AROUND { "…" } else { "" };
         let right =
             if number.saturating_sub(AROUND) + 2 * AROUND < self.text.chars().count() { "…" } else { "" };
         let what = format!("{what} at character {} of \"{left}{shown}{right}\"", number + 1);
-        FormulaFault { span, what, cure: cure.into() }
+        FormulaFault { span, what, help: help.into() }
     }
 }

@@ -9,7 +9,7 @@ use crate::law::{LAW_TOLERANCE, Law};
 /// Between the parts of a derived name, `NAME~A~B`: no name of a scene holds it, every file system takes it.
 pub const JOINED: char = '~';
 
-/// A joint between two sides.
+/// An interface between two sides.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Interface {

@@ -4,7 +4,7 @@ use wildmatch::WildMatch;
 
 use super::named::{check_group, check_name};
 use super::{CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Variable, split_group};
-use crate::error::{Result, name_cure};
+use crate::error::{Result, name_help};
 use crate::law::Law;
 
 impl Scene {
@@ -13,39 +13,43 @@ impl Scene {
         let path = ["interfaces", name];
         check_name(self, &path, name)?;
         if self.subdomains.contains_key(name) {
-            let cure = "rename one of them: both name a file of results";
-            return Err(self.source.refuse(&path, format!("\"{name}\" is also a subdomain"), cure));
+            let help = "rename one of them: both name a file of results";
+            return Err(self.source.error_at(&path, format!("\"{name}\" is also a subdomain"), help));
         }
         match (&interface.side_a, &interface.side_b, &interface.between) {
             (Some(a), Some(b), None) => self.check_sides(name, [a, b])?,
             (None, None, Some(patterns)) => self.check_patterns(name, patterns)?,
             (_, _, Some(_)) => {
-                let (what, cure) = ("both \"between\" and a side", "keep \"between\", or both sides");
-                return Err(self.source.refuse(&path, what, cure));
+                let (what, help) = ("both \"between\" and a side", "keep \"between\", or both sides");
+                return Err(self.source.error_at(&path, what, help));
             }
             (a, _, None) => {
                 let missing = if a.is_none() { "side_a" } else { "side_b" };
-                let cure = "give \"side_a\" and \"side_b\", or \"between\" with two patterns of subdomains";
-                return Err(self.source.refuse(&path, format!("the key \"{missing}\" is missing"), cure));
+                let help = "give \"side_a\" and \"side_b\", or \"between\" with two patterns of subdomains";
+                return Err(self.source.error_at(&path, format!("the key \"{missing}\" is missing"), help));
             }
         }
         self.check_gap(name, interface)?;
         if interface.grid != Grid::Auto && interface.coupling == CouplingKind::Pointwise {
             let path = ["interfaces", name, "grid"];
             let help = "leave \"grid\" out, or take \"coupling\": \"projected\"";
-            return Err(self.source.refuse(&path, "\"pointwise\" has no grid", help));
+            return Err(self.source.error_at(&path, "\"pointwise\" has no grid", help));
         }
         for (i, value) in interface.initial_traction.iter().enumerate() {
             if value.uses(Variable::LoadFactor) {
                 let path = ["interfaces", name, "initial_traction", &i.to_string()];
                 let what = format!("load_factor in {value}");
-                return Err(self.source.refuse(&path, what, "an initial traction is there before any load"));
+                return Err(self.source.error_at(
+                    &path,
+                    what,
+                    "an initial traction is there before any load",
+                ));
             }
         }
         let tolerance = interface.law_tolerance;
         if !(tolerance > 0.0 && tolerance < 1.0) {
             let path = ["interfaces", name, "law_tolerance"];
-            return Err(self.source.refuse(
+            return Err(self.source.error_at(
                 &path,
                 format!("{tolerance} is no tolerance"),
                 "it lies between 0 and 1, such as 1e-4",
@@ -54,20 +58,20 @@ impl Scene {
         interface
             .law
             .check()
-            .map_err(|law| self.source.refuse(&["interfaces", name, "law", law.key], law.what, law.cure))
+            .map_err(|law| self.source.error_at(&["interfaces", name, "law", law.key], law.what, law.help))
     }
 
     fn check_sides(&self, name: &str, sides: [&OneOrMany; 2]) -> Result<()> {
         for (key, side) in ["side_a", "side_b"].into_iter().zip(sides) {
             let path = ["interfaces", name, key];
             if side.names().is_empty() {
-                return Err(self.source.refuse(&path, "no curve", "name one, such as \"lower.top\""));
+                return Err(self.source.error_at(&path, "no curve", "name one, such as \"lower.top\""));
             }
             for group in side.names() {
                 check_group(self, &path, group)?;
                 if split_group(group).1.is_none() {
                     let what = format!("\"{group}\" is a whole body");
-                    return Err(self.source.refuse(
+                    return Err(self.source.error_at(
                         &path,
                         what,
                         format!("name a curve of it, such as \"{group}.top\""),
@@ -78,8 +82,8 @@ impl Scene {
         let [a, b] = sides;
         if let Some(both) = a.names().iter().find(|name| b.names().contains(name)) {
             let what = format!("\"{both}\" is on both sides");
-            let cure = "a joint lies between two different curves";
-            return Err(self.source.refuse(&["interfaces", name], what, cure));
+            let help = "a joint lies between two different curves";
+            return Err(self.source.error_at(&["interfaces", name], what, help));
         }
         Ok(())
     }
@@ -89,13 +93,13 @@ impl Scene {
         let Some(gap) = interface.initial_gap else { return Ok(()) };
         if !matches!(interface.law, Law::Coulomb(_)) {
             let what = "this law knows no initial gap";
-            let cure = "only \"type\": \"coulomb\" does: take that law or leave \"initial_gap\" out";
-            return Err(self.source.refuse(&path, what, cure));
+            let help = "only \"type\": \"coulomb\" does: take that law or leave \"initial_gap\" out";
+            return Err(self.source.error_at(&path, what, help));
         }
         match gap {
             InitialGap::Uniform(gap) if !gap.is_finite() => {
                 let what = format!("{gap} is no distance");
-                Err(self.source.refuse(
+                Err(self.source.error_at(
                     &path,
                     what,
                     "give a number, below zero for an overlap, or \"geometry\"",
@@ -111,8 +115,8 @@ impl Scene {
             if !self.subdomains.keys().any(|subdomain| matcher.matches(subdomain)) {
                 let path = ["interfaces", name, "between", &i.to_string()];
                 let what = format!("no subdomain is called like \"{pattern}\"");
-                let cure = name_cure(pattern, self.subdomains.keys().map(String::as_str));
-                return Err(self.source.refuse(&path, what, cure));
+                let help = name_help(pattern, self.subdomains.keys().map(String::as_str));
+                return Err(self.source.error_at(&path, what, help));
             }
         }
         Ok(())

@@ -33,7 +33,7 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A whole problem: bodies, joints, load history, what to write.
+/// A whole problem: bodies, interfaces, load history, what to write.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -52,12 +52,12 @@ pub struct Scene {
     pub subdomains: IndexMap<String, Subdomain>,
     /// Elastic materials by name.
     pub materials: IndexMap<String, Material>,
-    /// The joints between parts.
+    /// The interfaces between parts.
     #[serde(default)]
     pub interfaces: IndexMap<String, Interface>,
     /// The load history, in order.
     pub steps: Vec<Step>,
-    /// How equilibrium is found where a joint is not elastic.
+    /// How equilibrium is found where an interface is not elastic.
     #[serde(default)]
     pub solution: Solution,
     /// A preset of the knobs that trade speed for accuracy; what the scene states stays. Absent: the scene as it is.
@@ -134,7 +134,7 @@ pub struct Step {
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub fix: IndexMap<String, Vec<Direction>>,
     /// Total displacement by group, ramped from its value at the start of the step [length]. A formula that holds
-    /// load_factor is not ramped: it is the displacement at every load level.
+    /// load_factor is not ramped: it is the displacement at every load factor.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub displace: IndexMap<String, Displace>,
     /// Directions held at the displacement that they have at the start of the step, by group.
@@ -144,7 +144,7 @@ pub struct Step {
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub release: IndexMap<String, Vec<Direction>>,
     /// Loads by group, ramped from their last value. A load in whose formulas load_factor occurs is not ramped: they
-    /// are its value at every load level of the step, and that at load_factor 1 afterwards.
+    /// are its value at every load factor of the step, and that at load_factor 1 afterwards.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub load: IndexMap<String, Load>,
     /// Force per volume (x, y) by subdomain [force / volume], ramped like a load.
@@ -196,7 +196,7 @@ pub struct Output {
     /// Which increments write their fields.
     #[serde(default)]
     pub fields: Fields,
-    /// Columns of history.csv: name → probe, such as `joint.traction_t@0.5`.
+    /// Columns of history.csv: name → probe, such as `interface.traction_t@0.5`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub history: IndexMap<String, String>,
 }

@@ -1,7 +1,7 @@
 //! Names of a scene: those that become files, and those of groups.
 
 use super::{Scene, split_group};
-use crate::error::{Result, name_cure};
+use crate::error::{Result, name_help};
 
 /// A name that becomes a file name: letters, digits, `_` and `-`.
 pub(super) fn check_name(scene: &Scene, path: &[&str], name: &str) -> Result<()> {
@@ -10,7 +10,7 @@ pub(super) fn check_name(scene: &Scene, path: &[&str], name: &str) -> Result<()>
         return Ok(());
     }
     let what = format!("\"{name}\" cannot name a file");
-    Err(scene.source.refuse(path, what, "use letters, digits, _ and -"))
+    Err(scene.source.error_at(path, what, "use letters, digits, _ and -"))
 }
 
 /// The subdomain of a group must exist; whether it has that group is known when its mesh is.
@@ -19,6 +19,6 @@ pub(super) fn check_group(scene: &Scene, path: &[&str], group: &str) -> Result<(
     if scene.subdomains.contains_key(subdomain) {
         return Ok(());
     }
-    let cure = name_cure(subdomain, scene.subdomains.keys().map(String::as_str));
-    Err(scene.source.refuse(path, format!("no subdomain \"{subdomain}\""), cure))
+    let help = name_help(subdomain, scene.subdomains.keys().map(String::as_str));
+    Err(scene.source.error_at(path, format!("no subdomain \"{subdomain}\""), help))
 }

@@ -12,7 +12,7 @@ pub struct Place {
     pub y: f64,
     /// Fraction of the arc length along the group, 0 to 1.
     pub s: f64,
-    /// Load level within the step, 0 to 1.
+    /// Load factor within the step, 0 to 1.
     pub load_factor: f64,
 }
 
@@ -25,7 +25,7 @@ pub enum Variable {
     Y,
     /// Fraction of the arc length along the group.
     S,
-    /// Load level within the step.
+    /// Load factor within the step.
     LoadFactor,
 }
 
@@ -37,7 +37,7 @@ pub struct FormulaFault {
     /// What is wrong, with its position and the text around it.
     pub what: String,
     /// What would have been right.
-    pub cure: String,
+    pub help: String,
 }
 
 /// One instruction: takes its operands from the stack and leaves its result there.

@@ -1,17 +1,17 @@
 //! Probes: what a column of history.csv asks for.
 //!
-//! `joint.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
-//! group, `joint.resultant_t` the force across a joint, `energy.stored`, `energy.dissipated`,
+//! `interface.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
+//! group, `interface.resultant_t` the force across an interface, `energy.stored`, `energy.dissipated`,
 //! `energy.released`, `work.external`.
 
 use super::{Direction, JOINED, Scene};
-use crate::error::name_cure;
+use crate::error::name_help;
 
 /// A question to an increment.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Probe {
     /// A field of an interface at a fraction of its length.
-    Joint {
+    Interface {
         /// The interface.
         interface: String,
         /// Which field.
@@ -33,9 +33,9 @@ pub enum Probe {
         /// Its direction.
         direction: Direction,
     },
-    /// Elastic energy of bodies and joints [force × length].
+    /// Elastic energy of bodies and interfaces [force × length].
     EnergyStored,
-    /// Energy dissipated by the joints so far [force × length].
+    /// Energy dissipated by the interfaces so far [force × length].
     EnergyDissipated,
     /// Energy released by snaps so far [force × length].
     EnergyReleased,
@@ -73,16 +73,16 @@ impl Probe {
             "work.external" => return Ok(Probe::WorkExternal),
             _ => {}
         }
-        refuse_separators(text, scene)?;
+        check_separators(text, scene)?;
         let Some((object, field)) = text.rsplit_once('.').filter(|_| !text.contains('@')).or_else(|| {
             let dot = text.split('@').next().and_then(|head| head.rfind('.'))?;
             Some((&text[..dot], &text[dot + 1..]))
         }) else {
-            let cure = "write something like joint.traction_t@0.5, upper.top.displacement_y or energy.stored";
-            return Err((format!("\"{text}\" is not a probe"), cure.into()));
+            let help = "write something like joint.traction_t@0.5, upper.top.displacement_y or energy.stored";
+            return Err((format!("\"{text}\" is not a probe"), help.into()));
         };
         if scene.entry(object).is_some() {
-            return joint(object, field);
+            return interface(object, field);
         }
         if scene.interfaces.contains_key(object) {
             let what = format!("\"{object}\" makes an interface of every pair that touches");
@@ -95,32 +95,32 @@ impl Probe {
             let direction = match DISPLACEMENTS.iter().position(|known| *known == field) {
                 Some(0) => Direction::X,
                 Some(_) => Direction::Y,
-                None => return Err((format!("no field \"{field}\""), name_cure(field, DISPLACEMENTS))),
+                None => return Err((format!("no field \"{field}\""), name_help(field, DISPLACEMENTS))),
             };
             return Ok(Probe::Displacement { group: object.into(), direction });
         }
         let names = scene.interfaces.keys().chain(scene.subdomains.keys()).map(String::as_str);
         let names = names.chain(["energy", "work"]);
-        Err((format!("no interface or subdomain \"{object}\""), name_cure(object, names)))
+        Err((format!("no interface or subdomain \"{object}\""), name_help(object, names)))
     }
 }
 
 /// Refuses a group whose name holds the separator of a place, which nothing could tell from the place itself.
-fn refuse_separators(text: &str, scene: &Scene) -> std::result::Result<(), (String, String)> {
+fn check_separators(text: &str, scene: &Scene) -> std::result::Result<(), (String, String)> {
     let Some((object, field)) = text.rsplit_once('.') else { return Ok(()) };
     let (subdomain, group) = super::split_group(object);
     let is_field = DISPLACEMENTS.contains(&field);
     if is_field && scene.subdomains.contains_key(subdomain) && group.is_some_and(|group| group.contains('@'))
     {
         let what = format!("\"@\" in the name \"{object}\"");
-        let cure =
+        let help =
             "a probe cannot name a group with \"@\": give its curve a second physical group without it";
-        return Err((what, cure.into()));
+        return Err((what, help.into()));
     }
     Ok(())
 }
 
-fn joint(interface: &str, field: &str) -> std::result::Result<Probe, (String, String)> {
+fn interface(interface: &str, field: &str) -> std::result::Result<Probe, (String, String)> {
     let (name, fraction) = match field.split_once('@') {
         Some((name, fraction)) => (name, Some(fraction)),
         None => (field, None),
@@ -131,11 +131,11 @@ fn joint(interface: &str, field: &str) -> std::result::Result<Probe, (String, St
     }
     let Some(&(_, field)) = JOINT_FIELDS.iter().find(|(known, _)| *known == name) else {
         let names = JOINT_FIELDS.iter().map(|(name, _)| *name).chain(["resultant_n", "resultant_t"]);
-        return Err((format!("no field \"{name}\""), name_cure(name, names)));
+        return Err((format!("no field \"{name}\""), name_help(name, names)));
     };
     let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));
     match number {
-        Some(fraction) => Ok(Probe::Joint { interface: interface.into(), field, fraction }),
+        Some(fraction) => Ok(Probe::Interface { interface: interface.into(), field, fraction }),
         None => Err((
             format!("\"{}\" does not say where", fraction.unwrap_or(name)),
             format!("add a fraction of the length from 0 to 1, such as {name}@0.5"),

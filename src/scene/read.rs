@@ -8,7 +8,7 @@ use serde_path_to_error::Segment;
 
 use super::accuracy;
 use super::{Scene, Source, expression::Expression, set};
-use crate::error::{At, Error, Result, name_cure};
+use crate::error::{At, Error, Result, name_help};
 
 /// Reads a scene file, or the `scene.json` of a folder, applies `--set` settings and checks it.
 pub fn read(path: &Path, settings: &[String]) -> Result<Scene> {
@@ -49,7 +49,7 @@ pub fn document<T: DeserializeOwned>(
     let source = Source::new(file, text);
     if let Some(path) = &source.duplicate {
         let key = path.last().map_or("", String::as_str);
-        return Err(source.refuse(path, format!("the key \"{key}\" occurs twice"), "keep one of them"));
+        return Err(source.error_at(path, format!("the key \"{key}\" occurs twice"), "keep one of them"));
     }
     change(&mut value, &source)?;
     let read = serde_path_to_error::deserialize(&value).map_err(|error| {
@@ -65,10 +65,10 @@ pub fn document<T: DeserializeOwned>(
             && let Err(fault) = Expression::parse(text)
             && message == fault.what
         {
-            return source.refuse_within(&path, text, fault.span, fault.what, fault.cure);
+            return source.error_within(&path, text, fault.span, fault.what, fault.help);
         }
-        let (what, cure) = explain(&message, noun);
-        source.refuse(&path, what, cure)
+        let (what, help) = explain(&message, noun);
+        source.error_at(&path, what, help)
     })?;
     Ok((read, source))
 }
@@ -98,7 +98,7 @@ fn syntax(file: &Path, text: &str, noun: &str, error: &serde_json::Error) -> Err
     };
     let message = error.to_string();
     let what = message.split(" at line ").next().unwrap_or(&message).to_string();
-    Error::Text { at: Box::new(at), what, cure: format!("{noun} is one JSON object") }
+    Error::Text { at: Box::new(at), what, help: format!("{noun} is one JSON object") }
 }
 
 /// serde's message as (what is wrong, what would have been right).
@@ -111,7 +111,7 @@ fn explain(message: &str, noun: &str) -> (String, String) {
             if let Some((wrong, right)) = names.split_first() {
                 return (
                     format!("unknown {noun} \"{wrong}\""),
-                    name_cure(wrong, right.iter().map(String::as_str)),
+                    name_help(wrong, right.iter().map(String::as_str)),
                 );
             }
         }

@@ -11,21 +11,21 @@ use crate::error::{At, Error, Result};
 
 /// Applies one `KEY=VALUE` to a scene.
 pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()> {
-    let refuse = |what: String, cure: &str| Error::Text {
+    let error_at = |what: String, help: &str| Error::Text {
         at: Box::new(At { file: file.into(), key: format!("--set {setting}"), ..At::default() }),
         what,
-        cure: cure.into(),
+        help: help.into(),
     };
     let (key, value) = setting
         .split_once('=')
-        .ok_or_else(|| refuse("no \"=\"".into(), "write --set KEY=VALUE, such as --set thickness=0.1"))?;
+        .ok_or_else(|| error_at("no \"=\"".into(), "write --set KEY=VALUE, such as --set thickness=0.1"))?;
     let value = serde_json::from_str(value).unwrap_or_else(|_| Value::String(value.into()));
     let mut parts: Vec<String> = match key.strip_prefix('/') {
         Some(pointer) => pointer.split('/').map(|part| part.replace("~1", "/").replace("~0", "~")).collect(),
         None => key.split('.').map(str::to_string).collect(),
     };
     if parts.iter().any(String::is_empty) {
-        return Err(refuse("an empty part in the key".into(), "write a key such as steps.0.increments"));
+        return Err(error_at("an empty part in the key".into(), "write a key such as steps.0.increments"));
     }
     let mut at = scene;
     while !parts.is_empty() {
@@ -43,7 +43,7 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
                 let part = parts.remove(0);
                 let length = list.len();
                 part.parse::<usize>().ok().and_then(|i| list.get_mut(i)).ok_or_else(|| {
-                    refuse(
+                    error_at(
                         format!("no entry {part}"),
                         &format!("the list has entries 0 to {}", length.max(1) - 1),
                     )
@@ -51,7 +51,7 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
             }
             other => {
                 let what = format!("\"{}\" goes below the value {other}", parts.join("."));
-                return Err(refuse(what, "shorten the key"));
+                return Err(error_at(what, "shorten the key"));
             }
         };
     }

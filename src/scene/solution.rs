@@ -24,10 +24,10 @@ pub struct Solution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Strategy {
-    /// What is estimated to take less work. A linear scene is solved for its displacements, its stiff joints for their jumps.
+    /// What is estimated to take less work. A linear scene is solved for its displacements, its stiff interfaces for their jumps.
     #[default]
     Auto,
-    /// The jump coefficients: the bodies are factored once, an iteration touches the joints only.
+    /// The jump coefficients: the bodies are factored once, an iteration touches the interfaces only.
     Condensed,
     /// The same with the rigid motions of floating bodies, in a system that is sparse by blocks: for hundreds of bodies.
     Blocks,
@@ -42,7 +42,7 @@ pub enum Tangent {
     /// The derivative of the laws: quadratic convergence.
     #[default]
     Consistent,
-    /// The stiffness of the sound joints: linear convergence at best.
+    /// The stiffness of the intact interfaces: linear convergence at best.
     Initial,
 }
 
@@ -50,13 +50,13 @@ pub enum Tangent {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Control {
-    /// The load level: loads and displacements grow in equal parts.
+    /// The load factor: loads and displacements grow in equal parts.
     #[default]
     Load,
-    /// The change of the jumps of the joints, in steps that are as long as iterations allow: loads and displacements fall
+    /// The change of the jumps of the interfaces, in steps that are as long as iterations allow: loads and displacements fall
     /// where the path of equilibria does. `increments` is the least number that the step is divided in.
     Arclength,
-    /// The load level while nothing dissipates, else the energy that the joints dissipate, along the same path.
+    /// The load factor while nothing dissipates, else the energy that the interfaces dissipate, along the same path.
     Auto,
 }
 

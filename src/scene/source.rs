@@ -65,13 +65,13 @@ impl Source {
     }
 
     /// A refusal that points into a string: at the bytes `span` of `text`, which stands below the key.
-    pub fn refuse_within<S: AsRef<str>>(
+    pub fn error_within<S: AsRef<str>>(
         &self,
         path: &[S],
         text: &str,
         span: Range<usize>,
         what: impl Into<String>,
-        cure: impl Into<String>,
+        help: impl Into<String>,
     ) -> Error {
         let mut at = self.at(path);
         // a text that came by --set or is escaped in the file is not found: the key must do
@@ -80,17 +80,17 @@ impl Source {
             at.line = 1 + self.text[..start].matches('\n').count();
             at.span = start + span.start..start + span.end;
         }
-        Error::Text { at: Box::new(at), what: what.into(), cure: cure.into() }
+        Error::Text { at: Box::new(at), what: what.into(), help: help.into() }
     }
 
     /// A refusal that points at a key.
-    pub fn refuse<S: AsRef<str>>(
+    pub fn error_at<S: AsRef<str>>(
         &self,
         path: &[S],
         what: impl Into<String>,
-        cure: impl Into<String>,
+        help: impl Into<String>,
     ) -> Error {
-        Error::Text { at: Box::new(self.at(path)), what: what.into(), cure: cure.into() }
+        Error::Text { at: Box::new(self.at(path)), what: what.into(), help: help.into() }
     }
 }
 

@@ -103,7 +103,7 @@ impl de::Visitor<'_> for NumberOrText {
     fn visit_str<E: de::Error>(self, text: &str) -> Result<Value, E> {
         match Expression::parse(text) {
             Ok(expression) => Ok(Value::Expression(Arc::new(expression))),
-            Err(fault) => Err(E::custom(fault.what)), // the reader, which has the text, adds place and cure
+            Err(fault) => Err(E::custom(fault.what)), // the reader, which has the text, adds place and help
         }
     }
 }

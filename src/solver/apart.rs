@@ -6,17 +6,17 @@ use super::{Form, Respond};
 /// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
 /// and nothing pushes then stays where it is.
 pub(super) const FREE: f64 = 1e-12;
-/// Where no point of a joint resists an opening, this part, and its sides are moved apart at first by the second one of the
+/// Where no point of an interface resists an opening, this part, and its sides are moved apart at first by the second one of the
 /// largest jump: rounding must not make them touch.
 pub(super) const LOOSE: f64 = 1e-10;
 const APART: f64 = 1e-7;
 
-/// True if no point of a joint resists an opening.
+/// True if no point of an interface resists an opening.
 pub(super) fn opens_freely(stiffness: &[f64], intact: &[f64]) -> bool {
     stiffness.chunks_exact(intact.len()).all(|d| d[0].abs() < FREE * intact[0])
 }
 
-/// The forces of the joints, with a push on those that do not resist it; none if all do.
+/// The forces of the interfaces, with a push on those that do not resist it; none if all do.
 pub(super) fn moved_apart<L: Respond>(
     form: &impl Form,
     laws: &L,
@@ -24,8 +24,8 @@ pub(super) fn moved_apart<L: Respond>(
 ) -> Option<Vec<Vec<f64>>> {
     let (mut forces, mut any) = (now.forces.clone(), false);
     for (a, &k) in form.active().iter().enumerate() {
-        let joint = &form.joints()[k];
-        let c = joint.coupling.components;
+        let interface = &form.interfaces()[k];
+        let c = interface.coupling.components;
         let mut intact = vec![0.0; c * c];
         laws.initial_stiffness(k, &mut intact);
         if !opens_freely(&now.stiffness[a], &intact) {
@@ -35,7 +35,7 @@ pub(super) fn moved_apart<L: Respond>(
         let largest = now.jumps[a].iter().fold(0.0_f64, |most, jump| most.max(jump.abs()));
         let mut push = vec![0.0; now.jumps[a].len()];
         push.chunks_exact_mut(c).for_each(|push| push[0] = -LOOSE * intact[0] * APART * largest);
-        forces[a].iter_mut().zip(joint.gather(&push)).for_each(|(force, push)| *force += push);
+        forces[a].iter_mut().zip(interface.gather(&push)).for_each(|(force, push)| *force += push);
     }
     any.then_some(forces)
 }

@@ -13,55 +13,62 @@ use super::dense::{cholesky, cholesky_solve, detach, parallelism};
 use super::linear::tractions;
 use super::refine::Factored;
 use super::{Condensation, Continuum, NodalSolution, NotPositiveDefinite};
-use crate::assembly::{InterfaceTangent, Joint};
+use crate::assembly::{InterfaceOperator, InterfaceTangent};
 
 /// A factored base system.
 #[derive(Debug)]
 pub struct Base<'a> {
     continuum: &'a Continuum,
     condensation: Arc<Condensation>,
-    pub(super) joints: &'a [Joint],
-    /// Law stiffness of every joint's springs, components² values per law point.
+    pub(super) interfaces: &'a [InterfaceOperator],
+    /// Law stiffness of every interface's springs, components² values per law point.
     stiffness: &'a [Vec<f64>],
-    held: Vec<bool>,
-    /// L of S + Gᵀ T₀ G with the supports on joints.
-    border: Mat<f64>,
+    constrained: Vec<bool>,
+    /// L of S + Gᵀ T₀ G with the supports on interfaces.
+    separator: Mat<f64>,
 }
 
 impl<'a> Base<'a> {
-    /// Adds springs and supports on the joints to a condensation that serves these supports.
+    /// Adds springs and supports on the interfaces to a condensation that serves these supports.
     pub fn new(
         continuum: &'a Continuum,
         condensation: Arc<Condensation>,
-        joints: &'a [Joint],
+        interfaces: &'a [InterfaceOperator],
         stiffness: &'a [Vec<f64>],
-        held: &[bool],
+        constrained: &[bool],
     ) -> Result<Base<'a>, NotPositiveDefinite> {
-        let mut border = continuum.schur(&condensation);
+        let mut separator = continuum.schur(&condensation);
         let place = |dof: usize| continuum.places[dof].map(|place| place as usize);
-        for (joint, stiffness) in joints.iter().zip(stiffness) {
-            let mut tangent = InterfaceTangent::new(joint);
-            tangent.fill(joint, stiffness);
-            joint.visit_stiffness(&tangent.matrix, |row, column, value| {
+        for (interface, stiffness) in interfaces.iter().zip(stiffness) {
+            let mut tangent = InterfaceTangent::new(interface);
+            tangent.fill(interface, stiffness);
+            interface.visit_stiffness(&tangent.matrix, |row, column, value| {
                 if let (Some(i), Some(j)) = (place(row), place(column))
                     && i >= j
                 {
-                    border[(i, j)] += value;
+                    separator[(i, j)] += value;
                 }
             });
         }
-        for (dof, _) in held.iter().enumerate().filter(|(_, held)| **held) {
+        for (dof, _) in constrained.iter().enumerate().filter(|(_, constrained)| **constrained) {
             if let Some(k) = place(dof) {
-                detach(&mut border, k);
+                detach(&mut separator, k);
             }
         }
-        cholesky(&mut border, parallelism(continuum.border()))?;
-        Ok(Base { continuum, condensation, joints, stiffness, held: held.to_vec(), border })
+        cholesky(&mut separator, parallelism(continuum.separator()))?;
+        Ok(Base {
+            continuum,
+            condensation,
+            interfaces,
+            stiffness,
+            constrained: constrained.to_vec(),
+            separator,
+        })
     }
 
-    /// Solves with the border in place; held dofs stay where they are.
-    fn solve_border(&self, x: MatMut<f64>) {
-        self.continuum.solve_border(&self.held, x, |x| cholesky_solve(&self.border, x));
+    /// Solves with the separator in place; held dofs stay where they are.
+    fn solve_separator(&self, x: MatMut<f64>) {
+        self.continuum.solve_separator(&self.constrained, x, |x| cholesky_solve(&self.separator, x));
     }
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
@@ -69,20 +76,21 @@ impl<'a> Base<'a> {
         self.refined(f, prescribed)
     }
 
-    /// G K₀⁻¹ b on the jump coefficients of some joints for several right-hand sides, without refinement; what `b` has at
+    /// G K₀⁻¹ b on the jump coefficients of some interfaces for several right-hand sides, without refinement; what `b` has at
     /// held dofs is ignored.
-    pub(super) fn on_joints(&self, active: &[usize], mut b: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-        let held = |dof: usize| self.held[dof];
-        b.iter_mut().for_each(|b| (0..b.len()).filter(|&dof| held(dof)).for_each(|dof| b[dof] = 0.0));
-        let mut x = self.continuum.on_border(&self.condensation, &b);
-        self.solve_border(x.as_mut());
+    pub(super) fn on_interfaces(&self, active: &[usize], mut b: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        let constrained = |dof: usize| self.constrained[dof];
+        b.iter_mut().for_each(|b| (0..b.len()).filter(|&dof| constrained(dof)).for_each(|dof| b[dof] = 0.0));
+        let mut x = self.continuum.on_separator(&self.condensation, &b);
+        self.solve_separator(x.as_mut());
         let at =
             |dof: usize, k: usize| self.continuum.places[dof].map_or(0.0, |place| x[(place as usize, k)]);
         let of = |k: usize| {
-            let rows =
-                active.iter().flat_map(|&joint| (0..self.joints[joint].size()).map(move |i| (joint, i)));
-            let sum = |(joint, i): (usize, usize)| {
-                let (dofs, values) = self.joints[joint].row(i);
+            let rows = active
+                .iter()
+                .flat_map(|&interface| (0..self.interfaces[interface].size()).map(move |i| (interface, i)));
+            let sum = |(interface, i): (usize, usize)| {
+                let (dofs, values) = self.interfaces[interface].row(i);
                 dofs.iter().zip(values).map(|(&dof, value)| value * at(dof, k)).sum()
             };
             rows.map(sum).collect()
@@ -90,16 +98,16 @@ impl<'a> Base<'a> {
         (0..b.len()).map(of).collect()
     }
 
-    /// F₀ = G K₀⁻¹ Gᵀ on the jump coefficients of some joints, zero where nodes are held.
+    /// F₀ = G K₀⁻¹ Gᵀ on the jump coefficients of some interfaces, zero where nodes are held.
     pub(super) fn flexibility(&self, active: &[usize]) -> Mat<f64> {
-        let m: usize = active.iter().map(|&k| self.joints[k].size()).sum();
-        let mut x = Mat::zeros(self.border.nrows(), m);
+        let m: usize = active.iter().map(|&k| self.interfaces[k].size()).sum();
+        let mut x = Mat::zeros(self.separator.nrows(), m);
         let mut column = 0;
         for &k in active {
-            let joint = &self.joints[k];
-            for i in 0..joint.size() {
-                let (dofs, values) = joint.row(i);
-                for (&dof, &value) in dofs.iter().zip(values).filter(|(dof, _)| !self.held[**dof]) {
+            let interface = &self.interfaces[k];
+            for i in 0..interface.size() {
+                let (dofs, values) = interface.row(i);
+                for (&dof, &value) in dofs.iter().zip(values).filter(|(dof, _)| !self.constrained[**dof]) {
                     if let Some(place) = self.continuum.places[dof] {
                         x[(place as usize, column)] = value;
                     }
@@ -108,7 +116,7 @@ impl<'a> Base<'a> {
             }
         }
         let par = parallelism(m);
-        solve_lower_triangular_in_place(self.border.as_ref(), x.as_mut(), par);
+        solve_lower_triangular_in_place(self.separator.as_ref(), x.as_mut(), par);
         let mut flexibility = Mat::zeros(m, m);
         matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, par);
         flexibility
@@ -116,24 +124,24 @@ impl<'a> Base<'a> {
 }
 
 impl Factored for Base<'_> {
-    fn held(&self) -> &[bool] {
-        &self.held
+    fn constrained(&self) -> &[bool] {
+        &self.constrained
     }
 
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let mut force = vec![0.0; f.len()];
         self.continuum.add_product(u, &mut force);
-        for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
-            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+        for (interface, stiffness) in self.interfaces.iter().zip(self.stiffness) {
+            interface.add_force(&tractions(interface, stiffness, u), &mut force);
         }
         f.iter().zip(force).map(|(f, force)| f - force).collect()
     }
 
     fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
         self.continuum.add_absolute_product(u, scale);
-        for (joint, stiffness) in self.joints.iter().zip(self.stiffness) {
+        for (interface, stiffness) in self.interfaces.iter().zip(self.stiffness) {
             let mut force = vec![0.0; u.len()];
-            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+            interface.add_force(&tractions(interface, stiffness, u), &mut force);
             scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
         }
     }
@@ -143,6 +151,6 @@ impl Factored for Base<'_> {
     }
 
     fn apply(&self, b: &mut [Vec<f64>]) {
-        self.continuum.solve(&self.condensation, b, |x| self.solve_border(x));
+        self.continuum.solve(&self.condensation, b, |x| self.solve_separator(x));
     }
 }

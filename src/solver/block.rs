@@ -1,4 +1,4 @@
-//! What one body has to do with the joints of `blocks`: how the jumps it takes part in follow from forces on them and from
+//! What one body has to do with the interfaces of `blocks`: how the jumps it takes part in follow from forces on them and from
 //! its rigid motions.
 //!
 //! ```text
@@ -10,9 +10,9 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Accum, Mat, Par};
 
 use super::modes::FloatingModes;
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 
-/// What one body has to do with the joints.
+/// What one body has to do with the interfaces.
 #[derive(Debug)]
 pub(super) struct SubdomainBlock {
     /// Unknowns of the jumps that it takes part in.
@@ -27,40 +27,40 @@ pub(super) struct SubdomainBlock {
 }
 
 impl SubdomainBlock {
-    /// Of body `b`. `first`: first unknown of every joint; `start`: the body's first rigid motion among the unknowns, and
+    /// Of body `b`. `first`: first unknown of every interface; `start`: the body's first rigid motion among the unknowns, and
     /// how many there could be.
     pub(super) fn new(
-        bodies: &FloatingModes,
-        joints: &[Joint],
+        subdomains: &FloatingModes,
+        interfaces: &[InterfaceOperator],
         first: &[usize],
         b: usize,
         start: (usize, usize),
     ) -> SubdomainBlock {
-        let continuum = bodies.continuum;
-        let (dofs, border) = (continuum.dofs_of(b), continuum.border_of(b));
-        let mine = |joint: &&(usize, &Joint)| {
-            (0..joint.1.size()).any(|i| joint.1.row(i).0.iter().any(|dof| dofs.contains(dof)))
+        let continuum = subdomains.continuum;
+        let (dofs, separator) = (continuum.dofs_of(b), continuum.separator_of(b));
+        let mine = |interface: &&(usize, &InterfaceOperator)| {
+            (0..interface.1.size()).any(|i| interface.1.row(i).0.iter().any(|dof| dofs.contains(dof)))
         };
-        let all: Vec<(usize, &Joint)> = joints.iter().enumerate().collect();
+        let all: Vec<(usize, &InterfaceOperator)> = interfaces.iter().enumerate().collect();
         let (mut touched, mut rows) = (Vec::new(), Vec::new());
-        for &(k, joint) in all.iter().filter(mine) {
+        for &(k, interface) in all.iter().filter(mine) {
             touched.extend(first[k]..first[k + 1]);
-            rows.extend((0..joint.size()).map(|i| joint.row(i)));
+            rows.extend((0..interface.size()).map(|i| interface.row(i)));
         }
-        let motions = &bodies.motions[b];
-        let mut x = Mat::zeros(border.len(), touched.len());
-        let mut moved = Mat::zeros(touched.len(), motions.len());
+        let rigid_modes = &subdomains.rigid_modes[b];
+        let mut x = Mat::zeros(separator.len(), touched.len());
+        let mut moved = Mat::zeros(touched.len(), rigid_modes.len());
         for (column, (of, values)) in rows.iter().enumerate() {
             for (&dof, &value) in of.iter().zip(*values).filter(|(dof, _)| dofs.contains(dof)) {
-                if let Some(place) = continuum.places[dof].filter(|_| !bodies.held[dof]) {
-                    x[(place as usize - border.start, column)] = value;
+                if let Some(place) = continuum.places[dof].filter(|_| !subdomains.constrained[dof]) {
+                    x[(place as usize - separator.start, column)] = value;
                 }
-                for (k, motion) in motions.iter().enumerate() {
+                for (k, motion) in rigid_modes.iter().enumerate() {
                     moved[(column, k)] += value * motion[dof - dofs.start];
                 }
             }
         }
-        solve_lower_triangular_in_place(bodies.factors[b].as_ref(), x.as_mut(), Par::Seq);
+        solve_lower_triangular_in_place(subdomains.factors[b].as_ref(), x.as_mut(), Par::Seq);
         let mut flexibility = Mat::zeros(touched.len(), touched.len());
         matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, Par::Seq);
         SubdomainBlock { touched, flexibility, moved, first: start.0, most: start.1 }

@@ -9,71 +9,71 @@ use sha2::{Digest, Sha256};
 use super::{CondensedSubdomain, NotPositiveDefinite, Substructure, TooLarge};
 use crate::assembly::Body;
 
-/// All that decides a body and its border, as a digest.
+/// All that decides a body and its separator, as a digest.
 type SubdomainDigest = [u8; 32];
 
-/// Bodies by what decides them: points, cells, material, thickness, nodes on joints.
+/// Bodies by what decides them: points, cells, material, thickness, nodes on interfaces.
 #[derive(Debug)]
 pub struct SubdomainCache {
-    bodies: Mutex<HashMap<SubdomainDigest, Arc<Substructure>>>,
+    subdomains: Mutex<HashMap<SubdomainDigest, Arc<Substructure>>>,
     /// Memory that may still be filled [bytes].
     room: AtomicUsize,
 }
 
 impl SubdomainCache {
-    /// A shelf that keeps about this many bytes of condensations, the first that come.
+    /// A cache that keeps about this many bytes of condensations, the first that come.
     pub fn new(room: usize) -> SubdomainCache {
-        SubdomainCache { bodies: Mutex::default(), room: AtomicUsize::new(room) }
+        SubdomainCache { subdomains: Mutex::default(), room: AtomicUsize::new(room) }
     }
 
     /// The body, made unless it is there; true if it was.
-    pub(super) fn body(
+    pub(super) fn subdomain(
         &self,
         components: usize,
-        body: &Body,
+        subdomain: &Body,
         thickness: f64,
         joined: &[bool],
     ) -> Result<(Arc<Substructure>, bool), TooLarge> {
-        let key = key(body, thickness, joined);
-        if let Some(known) = self.bodies().get(&key) {
+        let key = key(subdomain, thickness, joined);
+        if let Some(known) = self.subdomains().get(&key) {
             return Ok((known.clone(), true));
         }
-        let new = Arc::new(Substructure::new(components, body, thickness, joined)?);
-        self.bodies().insert(key, new.clone());
+        let new = Arc::new(Substructure::new(components, subdomain, thickness, joined)?);
+        self.subdomains().insert(key, new.clone());
         Ok((new, false))
     }
 
-    fn bodies(&self) -> MutexGuard<'_, HashMap<SubdomainDigest, Arc<Substructure>>> {
-        self.bodies.lock().unwrap_or_else(PoisonError::into_inner)
+    fn subdomains(&self) -> MutexGuard<'_, HashMap<SubdomainDigest, Arc<Substructure>>> {
+        self.subdomains.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The body's condensation, made unless it was kept; true if it was.
     pub(super) fn condensed(
         &self,
-        body: &Substructure,
-        held: Vec<bool>,
+        subdomain: &Substructure,
+        constrained: Vec<bool>,
     ) -> Result<(Arc<CondensedSubdomain>, bool), NotPositiveDefinite> {
-        if let Some(kept) = body.kept(&held) {
+        if let Some(kept) = subdomain.kept(&constrained) {
             return Ok((kept, true));
         }
-        let condensed = Arc::new(body.condense(held)?);
-        let bytes = body.bytes();
+        let condensed = Arc::new(subdomain.condense(constrained)?);
+        let bytes = subdomain.bytes();
         let take = |room: usize| room.checked_sub(bytes);
         if self.room.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_ok() {
-            body.keep(&condensed);
+            subdomain.keep(&condensed);
         }
         Ok((condensed, false))
     }
 }
 
-fn key(body: &Body, thickness: f64, joined: &[bool]) -> SubdomainDigest {
+fn key(subdomain: &Body, thickness: f64, joined: &[bool]) -> SubdomainDigest {
     let mut hash = Sha256::new();
     let mut numbers = |part: &mut dyn Iterator<Item = u64>| {
         let bytes: Vec<u8> = part.flat_map(u64::to_le_bytes).collect();
         hash.update((bytes.len() as u64).to_le_bytes()); // so that parts cannot run into each other
         hash.update(bytes);
     };
-    let (mesh, e) = (&body.mesh, &body.elasticity);
+    let (mesh, e) = (&subdomain.mesh, &subdomain.elasticity);
     let material = [e.c11, e.c12, e.c33, thickness];
     numbers(&mut material.into_iter().map(f64::to_bits));
     numbers(&mut mesh.points.as_flattened().iter().map(|x| x.to_bits()));

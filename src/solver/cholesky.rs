@@ -22,7 +22,7 @@ use crate::assembly::{Pattern, Symmetric};
 
 /// Up to this many unknowns the order is AMD and faer chooses between its factorisations.
 const SMALL: usize = 1000;
-/// Up to this many both orders are made, which costs little, and the better is taken: separators across a joint, whose
+/// Up to this many both orders are made, which costs little, and the better is taken: separators across an interface, whose
 /// coupling reaches some thirty nodes along it, weigh more the smaller the model is.
 pub(super) const MEDIUM: usize = 50_000;
 

@@ -5,8 +5,8 @@
 //! J    = I + F₀ (T − T₀)               u  = K₀⁻¹ (f − Gᵀ (q − T₀ a))
 //! ```
 //!
-//! Neither F₀ nor T is inverted: F₀ is singular where interface nodes are held, T where a joint slides or is open. The
-//! system is well conditioned at every K_N. Elastic joints are part of K₀, only the others are asked (`active`).
+//! Neither F₀ nor T is inverted: F₀ is singular where interface nodes are held, T where an interface slides or is open. The
+//! system is well conditioned at every K_N. Elastic interfaces are part of K₀, only the others are asked (`active`).
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
@@ -16,12 +16,12 @@ use super::jacobian::Jacobian;
 use super::measure::Functional;
 use super::refine::Factored;
 use super::{Base, Form, LinearMeasure, NodalSolution, Ramp};
-use crate::assembly::{InterfaceTangent, Joint};
+use crate::assembly::{InterfaceOperator, InterfaceTangent};
 use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Forces of the joints below this part of what springs in their place would carry are no measure of their own.
+/// Forces of the interfaces below this part of what springs in their place would carry are no measure of their own.
 const SLIGHT: f64 = 1e-3;
 /// Jumps this many times those of the base system have no hold.
 const RUN_AWAY: f64 = 100.0;
@@ -31,9 +31,9 @@ const RUN_AWAY: f64 = 100.0;
 pub struct Condensed<'a> {
     base: Base<'a>,
     active: Vec<usize>,
-    /// T₀ of every active joint.
-    springs: Vec<Csr>,
-    /// First unknown of every active joint, and the end.
+    /// T₀ of every active interface.
+    base_stiffness: Vec<Csr>,
+    /// First unknown of every active interface, and the end.
     first: Vec<usize>,
     flexibility: Mat<f64>,
     /// Targets at both ends of a prepared step, and its measures.
@@ -43,30 +43,32 @@ pub struct Condensed<'a> {
 }
 
 impl<'a> Condensed<'a> {
-    /// Condenses a base system on the joints in `active`, whose springs are `stiffness` at every law point and whose laws
-    /// have the stiffness `sound` there before anything has cracked or slipped.
+    /// Condenses a base system on the interfaces in `active`, whose springs are `stiffness` at every law point and whose laws
+    /// have the stiffness `intact` there before anything has cracked or slipped.
     pub fn new(
         base: Base<'a>,
         active: &[usize],
         stiffness: &[Vec<f64>],
-        sound: &[Vec<f64>],
+        intact: &[Vec<f64>],
     ) -> Condensed<'a> {
         let matrices = |stiffness: &[Vec<f64>]| -> Vec<Csr> {
             let matrix = |&k: &usize| {
-                let mut tangent = InterfaceTangent::new(&base.joints[k]);
-                tangent.fill(&base.joints[k], &stiffness[k]);
+                let mut tangent = InterfaceTangent::new(&base.interfaces[k]);
+                tangent.fill(&base.interfaces[k], &stiffness[k]);
                 tangent.matrix
             };
             active.iter().map(matrix).collect()
         };
-        let springs = matrices(stiffness);
-        let jacobian = Jacobian::new(&springs, &matrices(sound));
+        let base_stiffness = matrices(stiffness);
+        let jacobian = Jacobian::new(&base_stiffness, &matrices(intact));
         let mut first = vec![0];
-        springs.iter().for_each(|springs| first.push(first[first.len() - 1] + springs.rows()));
+        base_stiffness
+            .iter()
+            .for_each(|base_stiffness| first.push(first[first.len() - 1] + base_stiffness.rows()));
         let flexibility = base.flexibility(active);
         let active = active.to_vec();
         let (targets, functionals) = ([Vec::new(), Vec::new()], Vec::new());
-        Condensed { base, active, springs, first, flexibility, targets, functionals, jacobian }
+        Condensed { base, active, base_stiffness, first, flexibility, targets, functionals, jacobian }
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -75,14 +77,16 @@ impl<'a> Condensed<'a> {
 
     /// q − T₀ a.
     fn excess(&self, a: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
-        let of = |k: usize| self.springs[k].multiply(self.part(k, a)).into_iter().zip(&forces[k]);
-        (0..self.active.len()).flat_map(|k| of(k).map(|(spring, q)| q - spring).collect::<Vec<_>>()).collect()
+        let of = |k: usize| self.base_stiffness[k].multiply(self.part(k, a)).into_iter().zip(&forces[k]);
+        (0..self.active.len())
+            .flat_map(|k| of(k).map(|(base_spring, q)| q - base_spring).collect::<Vec<_>>())
+            .collect()
     }
 }
 
 impl Form for Condensed<'_> {
-    fn joints(&self) -> &[Joint] {
-        self.base.joints
+    fn interfaces(&self) -> &[InterfaceOperator] {
+        self.base.interfaces
     }
 
     fn active(&self) -> &[usize] {
@@ -91,7 +95,7 @@ impl Form for Condensed<'_> {
 
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
         let u = self.base.solve(force, prescribed).u;
-        self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&u)).collect()
+        self.active.iter().flat_map(|&k| self.base.interfaces[k].coefficients(&u)).collect()
     }
 
     fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]) -> bool {
@@ -99,23 +103,23 @@ impl Form for Condensed<'_> {
         let Some(ramp) = ramp else { return false };
         let loads = [0, 1].map(|end| (&ramp.force[end][..], &ramp.prescribed[end][..]));
         let ends = self.base.refined_all(&loads);
-        let on_joints = |solution: &NodalSolution| -> Vec<f64> {
-            self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(&solution.u)).collect()
+        let on_interfaces = |solution: &NodalSolution| -> Vec<f64> {
+            self.active.iter().flat_map(|&k| self.base.interfaces[k].coefficients(&solution.u)).collect()
         };
-        self.targets = [on_joints(&ends[0]), on_joints(&ends[1])];
+        self.targets = [on_interfaces(&ends[0]), on_interfaces(&ends[1])];
         self.functionals = Functional::all(&self.base, &self.active, ramp, &ends, measures);
         true
     }
 
-    fn prepared(&self, level: f64) -> Vec<f64> {
+    fn prepared(&self, load_factor: f64) -> Vec<f64> {
         let [start, end] = &self.targets;
-        let between = |(a, b): (&f64, &f64)| if level == 1.0 { *b } else { a + level * (b - a) };
+        let between = |(a, b): (&f64, &f64)| if load_factor == 1.0 { *b } else { a + load_factor * (b - a) };
         start.iter().zip(end).map(between).collect()
     }
 
-    fn measured(&self, level: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
+    fn measured(&self, load_factor: f64, x: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
         let excess = self.excess(x, forces);
-        self.functionals.iter().map(|functional| functional.value(level, &excess)).collect()
+        self.functionals.iter().map(|functional| functional.value(load_factor, &excess)).collect()
     }
 
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {
@@ -131,28 +135,32 @@ impl Form for Condensed<'_> {
         residual
     }
 
-    /// What the springs would make of the misfit, over what the joints carry. Where they carry nothing a small part of
+    /// What the springs would make of the misfit, over what the interfaces carry. Where they carry nothing a small part of
     /// what the springs alone would carry stands for it.
     fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let (mut misfit, mut scale) = (0.0, 0.0);
         for k in 0..self.active.len() {
-            misfit += squares(&self.springs[k].multiply(self.part(k, residual)));
-            let unlimited = squares(&self.springs[k].multiply(self.part(k, target)));
+            misfit += squares(&self.base_stiffness[k].multiply(self.part(k, residual)));
+            let unlimited = squares(&self.base_stiffness[k].multiply(self.part(k, target)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }
 
-    /// Every term of the residual to the precision of numbers. Where nothing holds the joint, jumps run away: those are no
+    /// Every term of the residual to the precision of numbers. Where nothing holds the interface, jumps run away: those are no
     /// reason to be content with less.
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], _: &[InterfaceTangent]) -> f64 {
         let far = RUN_AWAY * target.iter().map(|a| a.abs()).fold(0.0, f64::max);
         let absolute = |v: &[f64]| v.iter().map(|v| v.abs().min(far)).collect::<Vec<f64>>();
         let sizes: Vec<Vec<f64>> = (0..self.active.len())
             .map(|k| {
-                let spring = self.springs[k].multiply(&absolute(self.part(k, x)));
-                spring.iter().zip(&forces[k]).map(|(spring, q)| spring.abs() + q.abs()).collect()
+                let base_spring = self.base_stiffness[k].multiply(&absolute(self.part(k, x)));
+                base_spring
+                    .iter()
+                    .zip(&forces[k])
+                    .map(|(base_spring, q)| base_spring.abs() + q.abs())
+                    .collect()
             })
             .collect();
         let sizes = sizes.concat();
@@ -174,9 +182,9 @@ impl Form for Condensed<'_> {
         self.jacobian.solve(b);
     }
 
-    /// a − G u: F₀ carries the rounding of the condensation, which stiff bodies on soft joints magnify; u does not.
+    /// a − G u: F₀ carries the rounding of the condensation, which stiff bodies on soft interfaces magnify; u does not.
     fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64> {
-        let moved = self.active.iter().flat_map(|&k| self.base.joints[k].coefficients(u));
+        let moved = self.active.iter().flat_map(|&k| self.base.interfaces[k].coefficients(u));
         x.iter().zip(moved).map(|(a, moved)| a - moved).collect()
     }
 
@@ -187,8 +195,8 @@ impl Form for Condensed<'_> {
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {
         let mut load = force.to_vec();
         let excess: Vec<f64> = self.excess(x, forces).iter().map(|q| -q).collect();
-        for (k, &joint) in self.active.iter().enumerate() {
-            self.base.joints[joint].add_nodal(self.part(k, &excess), &mut load);
+        for (k, &interface) in self.active.iter().enumerate() {
+            self.base.interfaces[interface].add_nodal(self.part(k, &excess), &mut load);
         }
         self.base.solve(&load, prescribed)
     }

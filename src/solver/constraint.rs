@@ -28,8 +28,8 @@ impl Affine {
     }
 
     /// The target at a level.
-    pub fn at(&self, level: f64) -> Vec<f64> {
-        self.start.iter().zip(&self.change).map(|(start, change)| start + level * change).collect()
+    pub fn at(&self, load_factor: f64) -> Vec<f64> {
+        self.start.iter().zip(&self.change).map(|(start, change)| start + load_factor * change).collect()
     }
 }
 
@@ -38,7 +38,7 @@ impl Affine {
 pub enum Constraint {
     /// As far as it dissipates this energy.
     Dissipate(f64),
-    /// From the jumps of every active joint by a change of them, or what is across it.
+    /// From the jumps of every active interface by a change of them, or what is across it.
     Move {
         /// The jumps.
         from: Vec<Vec<f64>>,
@@ -51,7 +51,7 @@ impl Constraint {
     /// By the change of the jumps between two sets of unknowns.
     pub fn between(form: &impl Form, from: &[f64], to: &[f64]) -> Constraint {
         let jumps = |x: &[f64]| -> Vec<Vec<f64>> {
-            let of = |(&k, a): (&usize, Vec<f64>)| form.joints()[k].jumps_of(&a);
+            let of = |(&k, a): (&usize, Vec<f64>)| form.interfaces()[k].jumps_of(&a);
             form.active().iter().zip(form.coefficients(x)).map(of).collect()
         };
         let (from, mut by) = (jumps(from), jumps(to));
@@ -72,7 +72,7 @@ impl Constraint {
         }
     }
 
-    /// Its derivative by the jump coefficients of every active joint.
+    /// Its derivative by the jump coefficients of every active interface.
     pub(super) fn slope<L: Respond>(
         &self,
         form: &impl Form,
@@ -82,7 +82,7 @@ impl Constraint {
         let (mut slope, amount) = match self {
             Constraint::Dissipate(amount) => (rates(form, laws, now), *amount),
             Constraint::Move { by, .. } => {
-                let of = |(&k, by): (&usize, &Vec<f64>)| form.joints()[k].gather(by);
+                let of = |(&k, by): (&usize, &Vec<f64>)| form.interfaces()[k].gather(by);
                 (form.active().iter().zip(by).map(of).collect(), product(form, by, by))
             }
         };
@@ -94,31 +94,32 @@ impl Constraint {
 /// Σ h w a·b of two sets of values at the law points.
 fn product(form: &impl Form, a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     let of = |((&k, a), b): ((&usize, &Vec<f64>), &Vec<f64>)| {
-        let joint = &form.joints()[k];
-        let components = joint.coupling.components;
-        let at = |(p, (a, b)): (usize, (&f64, &f64))| joint.coupling.points[p / components].weight * a * b;
-        joint.thickness() * a.iter().zip(b).enumerate().map(at).sum::<f64>()
+        let interface = &form.interfaces()[k];
+        let components = interface.coupling.components;
+        let at =
+            |(p, (a, b)): (usize, (&f64, &f64))| interface.coupling.points[p / components].weight * a * b;
+        interface.thickness() * a.iter().zip(b).enumerate().map(at).sum::<f64>()
     };
     form.active().iter().zip(a).zip(b).map(of).sum()
 }
 
 /// Energy dissipated since the last accepted increment.
 pub(super) fn dissipated<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> f64 {
-    let joints = form.active().iter().zip(&now.memory);
+    let interfaces = form.active().iter().zip(&now.memory);
     let of = |(&k, memory): (&usize, &Vec<L::Memory>)| {
-        let joint = &form.joints()[k];
-        let points = joint.coupling.points.iter().zip(memory);
-        points.map(|(p, memory)| joint.thickness() * p.weight * laws.dissipation(memory).0).sum::<f64>()
+        let interface = &form.interfaces()[k];
+        let points = interface.coupling.points.iter().zip(memory);
+        points.map(|(p, memory)| interface.thickness() * p.weight * laws.dissipation(memory).0).sum::<f64>()
     };
-    joints.map(of).sum()
+    interfaces.map(of).sum()
 }
 
-/// Its derivative by the jump coefficients of every active joint.
+/// Its derivative by the jump coefficients of every active interface.
 fn rates<L: Respond>(form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> Vec<Vec<f64>> {
-    let joints = form.active().iter().zip(&now.memory);
+    let interfaces = form.active().iter().zip(&now.memory);
     let of = |(&k, memory): (&usize, &Vec<L::Memory>)| {
         let rates: Vec<f64> = memory.iter().flat_map(|memory| laws.dissipation(memory).1).copied().collect();
-        form.joints()[k].gather(&rates)
+        form.interfaces()[k].gather(&rates)
     };
-    joints.map(of).collect()
+    interfaces.map(of).collect()
 }

@@ -1,4 +1,4 @@
-//! What the laws of all joints and a form say at some unknowns.
+//! What the laws of all interfaces and a form say at some unknowns.
 
 use rayon::prelude::*;
 
@@ -28,7 +28,7 @@ impl<M> Evaluation<M> {
     }
 }
 
-/// The answers of the laws at the law points of every active joint, without what the form makes of them.
+/// The answers of the laws at the law points of every active interface, without what the form makes of them.
 #[derive(Debug)]
 pub struct Answers<M> {
     /// Jumps (n, t, …).
@@ -61,9 +61,9 @@ pub fn ask<L: Respond>(form: &impl Form, laws: &L, x: &[f64]) -> Result<Answers<
     let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
     let (mut forces, mut memory) = (Vec::new(), Vec::new());
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
-        let joint = &form.joints()[k];
-        let c = joint.coupling.components;
-        let jumps = joint.jumps_of(&coefficients);
+        let interface = &form.interfaces()[k];
+        let c = interface.coupling.components;
+        let jumps = interface.jumps_of(&coefficients);
         let (mut t, mut d) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
         let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
             .zip(t.par_chunks_exact_mut(c))
@@ -79,7 +79,7 @@ pub fn ask<L: Respond>(form: &impl Form, laws: &L, x: &[f64]) -> Result<Answers<
             })
             .collect();
         memory.push(answers?);
-        forces.push(joint.gather(&t));
+        forces.push(interface.gather(&t));
         all_jumps.push(jumps);
         tractions.push(t);
         stiffness.push(d);
@@ -96,10 +96,10 @@ pub(super) fn unconverged<M>(
 ) -> Unconverged {
     let mut worst: Vec<(f64, usize, usize)> = Vec::new();
     for (&k, misfit) in form.active().iter().zip(form.coefficients(&now.residual)) {
-        let joint = &form.joints()[k];
+        let interface = &form.interfaces()[k];
         let size = |jump: &[f64]| jump.iter().map(|r| r * r).sum::<f64>();
-        let sizes = joint.jumps_of(&misfit);
-        let sizes = sizes.chunks_exact(joint.coupling.components).map(size);
+        let sizes = interface.jumps_of(&misfit);
+        let sizes = sizes.chunks_exact(interface.coupling.components).map(size);
         worst.extend(sizes.enumerate().map(|(p, size)| (size, k, p)));
     }
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -1,7 +1,7 @@
 //! What Newton's method asks of a form of the equilibrium, and what a form asks of the laws.
 
 use super::{LinearMeasure, NodalSolution, Ramp};
-use crate::assembly::{InterfaceTangent, Joint};
+use crate::assembly::{InterfaceOperator, InterfaceTangent};
 
 /// What answers at the law points.
 pub trait Respond: Sync {
@@ -12,7 +12,7 @@ pub trait Respond: Sync {
     /// point; on failure the reason.
     fn respond(
         &self,
-        joint: usize,
+        interface: usize,
         point: usize,
         jump: &[f64],
         traction: &mut [f64],
@@ -23,46 +23,46 @@ pub trait Respond: Sync {
     fn dissipation<'m>(&self, memory: &'m Self::Memory) -> (f64, &'m [f64]);
 
     /// Fills the derivative before anything has cracked or slipped.
-    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]);
+    fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]);
 }
 
 /// One way to write the equilibrium.
 pub trait Form {
-    /// All joints.
-    fn joints(&self) -> &[Joint];
-    /// Numbers of the joints whose laws are asked.
+    /// All interfaces.
+    fn interfaces(&self) -> &[InterfaceOperator];
+    /// Numbers of the interfaces whose laws are asked.
     fn active(&self) -> &[usize];
     /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
-    /// Prepares what loads that are affine in the load level allow; false if that is nothing, as of a form that does not say
+    /// Prepares what loads that are affine in the load factor allow; false if that is nothing, as of a form that does not say
     /// otherwise. Then `prepared` has the target at a level, and `measured` what was asked for, without recovering
     /// displacements.
     fn prepare(&mut self, _ramp: Option<&Ramp>, _measures: &[LinearMeasure]) -> bool {
         false
     }
     /// b at a level of the prepared loads.
-    fn prepared(&self, _level: f64) -> Vec<f64> {
+    fn prepared(&self, _load_factor: f64) -> Vec<f64> {
         Vec::new()
     }
     /// The measures of a solution at a level of the prepared loads.
-    fn measured(&self, _level: f64, _x: &[f64], _forces: &[Vec<f64>]) -> Vec<f64> {
+    fn measured(&self, _load_factor: f64, _x: &[f64], _forces: &[Vec<f64>]) -> Vec<f64> {
         Vec::new()
     }
-    /// Jump coefficients of every active joint.
+    /// Jump coefficients of every active interface.
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
-    /// R(x) for the forces q of every active joint on its jump coefficients.
+    /// R(x) for the forces q of every active interface on its jump coefficients.
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
     /// What rounding alone may leave of the residual, measured like `error`.
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64;
-    /// Factors the Jacobian for the tangents of every active joint; false if it is singular.
+    /// Factors the Jacobian for the tangents of every active interface; false if it is singular.
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool;
     /// J⁻¹ b in place.
     fn solve(&self, b: &mut [f64]);
     /// What the displacements of a solution say the residual still is; empty where it is known exactly.
     fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64>;
-    /// Σ c · a over the active joints, for weights on their jump coefficients, as weights on x.
+    /// Σ c · a over the active interfaces, for weights on their jump coefficients, as weights on x.
     fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64>;
     /// Displacements and reactions of a solution.
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution;

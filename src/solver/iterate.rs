@@ -11,7 +11,7 @@ pub struct NewtonSettings {
     pub iterations: usize,
     /// Give up if the residual has not halved in so many iterations.
     pub patience: usize,
-    /// Stay with the tangent of the intact joints: linear convergence only.
+    /// Stay with the tangent of the intact interfaces: linear convergence only.
     pub initial_tangent: bool,
 }
 
@@ -20,11 +20,11 @@ pub struct NewtonSettings {
 pub struct Iterate<M> {
     /// The unknowns of the form.
     pub x: Vec<f64>,
-    /// Jumps (n, t, …) at the law points of every active joint.
+    /// Jumps (n, t, …) at the law points of every active interface.
     pub jumps: Vec<Vec<f64>>,
     /// Tractions alike.
     pub tractions: Vec<Vec<f64>>,
-    /// Forces q on the jump coefficients of every active joint.
+    /// Forces q on the jump coefficients of every active interface.
     pub forces: Vec<Vec<f64>>,
     /// What the law points remember.
     pub memory: Vec<Vec<M>>,
@@ -39,17 +39,17 @@ pub struct Iterate<M> {
 pub struct Unconverged {
     /// In words.
     pub reason: String,
-    /// Joint and law point that are farthest from equilibrium.
+    /// InterfaceOperator and law point that are farthest from equilibrium.
     pub worst: Vec<(usize, usize)>,
     /// Linear systems solved.
     pub iterations: usize,
 }
 
-/// Where a search stands: unknowns and load level.
+/// Where a search stands: unknowns and load factor.
 #[derive(Debug, Clone)]
 pub struct PathPoint {
     /// The unknowns of the form.
     pub x: Vec<f64>,
-    /// Load level.
-    pub level: f64,
+    /// Load factor.
+    pub load_factor: f64,
 }

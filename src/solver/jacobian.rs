@@ -1,13 +1,13 @@
-//! J = I + F₀ (T − T₀): factored once for sound joints, and from there by the rows of T that are no longer sound.
+//! J = I + F₀ (T − T₀): factored once for intact interfaces, and from there by the rows of T that are no longer intact.
 //!
 //! ```text
 //! J = Jₛ (1 + W ΔT)      Jₛ = I + F₀ (Tₛ − T₀)      W = Jₛ⁻¹ F₀      ΔT = T − Tₛ
 //! J⁻¹ b = z − W_R y      z = Jₛ⁻¹ b      (1 + ΔT_R W_R) y = ΔT_R z      R: rows of ΔT that are not zero
 //! ```
 //!
-//! Only the small matrix of R is factored in an iteration: a sliding point has one row of its two, a sound one none. The base
+//! Only the small matrix of R is factored in an iteration: a sliding point has one row of its two, an intact one none. The base
 //! depends on the supports alone and not on the way here, so that a run repeats bit by bit from any of its increments.
-//! Where hardly a row is sound the whole is factored; so it is where sound springs are much stiffer than the base: then
+//! Where hardly a row is intact the whole is factored; so it is where intact springs are much stiffer than the base: then
 //! 1 + ΔT W is what is left of a difference.
 
 use faer::{Mat, MatRef};
@@ -25,10 +25,10 @@ const STIFFER: f64 = 1e4;
 /// The Jacobian of the condensed form.
 #[derive(Debug)]
 pub(super) struct Jacobian {
-    /// Pattern of T over all active joints, with the values of T₀.
-    springs: Csr,
+    /// Pattern of T over all active interfaces, with the values of T₀.
+    base_stiffness: Csr,
     /// Values of Tₛ.
-    sound: Vec<f64>,
+    intact: Vec<f64>,
     /// Sound springs are not too stiff for updates.
     updates: bool,
     base: Option<Sound>,
@@ -50,24 +50,26 @@ enum JacobianFactor {
 }
 
 impl Jacobian {
-    /// For joints with these springs T₀ and sound stiffnesses Tₛ on the same patterns.
-    pub(super) fn new(springs: &[Csr], sound: &[Csr]) -> Jacobian {
-        let (springs, sound) = (stack(springs), stack(sound).values);
+    /// For interfaces with these springs T₀ and intact stiffnesses Tₛ on the same patterns.
+    pub(super) fn new(base_stiffness: &[Csr], intact: &[Csr]) -> Jacobian {
+        let (base_stiffness, intact) = (stack(base_stiffness), stack(intact).values);
         let stiffer = |(s, t): (&f64, &f64)| s.abs() > STIFFER * t.abs() && *s != 0.0;
-        let updates = !sound.iter().zip(&springs.values).any(stiffer);
-        Jacobian { springs, sound, updates, base: None, factored: None }
+        let updates = !intact.iter().zip(&base_stiffness.values).any(stiffer);
+        Jacobian { base_stiffness, intact, updates, base: None, factored: None }
     }
 
-    /// Factors J for the tangents of all active joints, unless that is what is factored.
+    /// Factors J for the tangents of all active interfaces, unless that is what is factored.
     pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[InterfaceTangent]) {
         let values: Vec<f64> = tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
         if self.factored.as_ref().is_some_and(|(of, _)| *of == values) {
             return;
         }
-        let change = self.springs.less(&values, &self.sound);
+        let change = self.base_stiffness.less(&values, &self.intact);
         let rows: Vec<usize> = (0..change.rows()).filter(|&i| !change.row(i).0.is_empty()).collect();
         let factor = if self.updates && rows.len() as f64 <= PART * change.rows() as f64 {
-            let of_base = || Sound::new(flexibility, &self.springs.less(&self.sound, &self.springs.values));
+            let of_base = || {
+                Sound::new(flexibility, &self.base_stiffness.less(&self.intact, &self.base_stiffness.values))
+            };
             let base = self.base.get_or_insert_with(of_base);
             let mut matrix = Mat::<f64>::zeros(rows.len(), rows.len());
             matrix.as_mut().par_col_iter_mut().enumerate().for_each(|(b, mut column)| {
@@ -82,7 +84,7 @@ impl Jacobian {
         } else {
             JacobianFactor::Whole(Lu::new(whole(
                 flexibility,
-                &self.springs.less(&values, &self.springs.values),
+                &self.base_stiffness.less(&values, &self.base_stiffness.values),
             )))
         };
         self.factored = Some((values, factor));

@@ -6,14 +6,14 @@
 
 use super::refine::Factored;
 use super::{Factor, FactorPlan, NodalSolution, NotPositiveDefinite};
-use crate::assembly::{Joint, Pattern, Symmetric, add_stiffness};
+use crate::assembly::{InterfaceOperator, Pattern, Symmetric, add_stiffness};
 
-/// The matrix of a linear scene: continuum and joints of constant stiffness.
+/// The matrix of a linear scene: continuum and interfaces of constant stiffness.
 #[derive(Debug, Clone, Copy)]
 pub struct System<'a> {
-    /// The joints.
-    pub joints: &'a [Joint],
-    /// Stiffness D of every joint's law points, components² values each.
+    /// The interfaces.
+    pub interfaces: &'a [InterfaceOperator],
+    /// Stiffness D of every interface's law points, components² values each.
     pub stiffness: &'a [Vec<f64>],
     /// Pattern of the whole.
     pub pattern: &'a Pattern,
@@ -25,7 +25,7 @@ pub struct System<'a> {
 #[derive(Debug)]
 pub struct Linear<'a> {
     system: System<'a>,
-    held: Vec<bool>,
+    constrained: Vec<bool>,
     total: Symmetric,
     factor: Factor<'a>,
 }
@@ -35,16 +35,16 @@ impl<'a> Linear<'a> {
     pub fn new(
         system: System<'a>,
         plan: &'a FactorPlan,
-        held: &[bool],
+        constrained: &[bool],
     ) -> Result<Linear<'a>, NotPositiveDefinite> {
         let mut total = system.continuum.clone();
-        for (joint, stiffness) in system.joints.iter().zip(system.stiffness) {
-            add_stiffness(joint, system.pattern, stiffness, &mut total);
+        for (interface, stiffness) in system.interfaces.iter().zip(system.stiffness) {
+            add_stiffness(interface, system.pattern, stiffness, &mut total);
         }
-        let taken = total.hold(system.pattern, held);
+        let taken = total.hold(system.pattern, constrained);
         let factor = plan.factor(system.pattern, &total)?;
         total.release(&taken);
-        Ok(Linear { system, held: held.to_vec(), total, factor })
+        Ok(Linear { system, constrained: constrained.to_vec(), total, factor })
     }
 
     /// Solves for external forces `f` and prescribed displacements (read where held).
@@ -54,25 +54,25 @@ impl<'a> Linear<'a> {
 }
 
 impl Factored for Linear<'_> {
-    fn held(&self) -> &[bool] {
-        &self.held
+    fn constrained(&self) -> &[bool] {
+        &self.constrained
     }
 
-    /// f − K u − Σ Gᵀ q, the joints by their jumps, so that what cancels does so before it is multiplied by K_N.
+    /// f − K u − Σ Gᵀ q, the interfaces by their jumps, so that what cancels does so before it is multiplied by K_N.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let mut force = vec![0.0; f.len()];
         self.system.continuum.add_product_by_differences(self.system.pattern, u, &mut force);
-        for (joint, stiffness) in self.system.joints.iter().zip(self.system.stiffness) {
-            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+        for (interface, stiffness) in self.system.interfaces.iter().zip(self.system.stiffness) {
+            interface.add_force(&tractions(interface, stiffness, u), &mut force);
         }
         f.iter().zip(force).map(|(f, force)| f - force).collect()
     }
 
     fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
         self.system.continuum.add_absolute_product_by_differences(self.system.pattern, u, scale);
-        for (joint, stiffness) in self.system.joints.iter().zip(self.system.stiffness) {
+        for (interface, stiffness) in self.system.interfaces.iter().zip(self.system.stiffness) {
             let mut force = vec![0.0; u.len()];
-            joint.add_force(&tractions(joint, stiffness, u), &mut force);
+            interface.add_force(&tractions(interface, stiffness, u), &mut force);
             scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
         }
     }
@@ -86,10 +86,10 @@ impl Factored for Linear<'_> {
     }
 }
 
-/// Tractions D r (n, t, …) at the law points of a joint of constant stiffness.
-pub(crate) fn tractions(joint: &Joint, stiffness: &[f64], u: &[f64]) -> Vec<f64> {
-    let c = joint.coupling.components;
-    let jumps = joint.jumps(u);
+/// Tractions D r (n, t, …) at the law points of an interface of constant stiffness.
+pub(crate) fn tractions(interface: &InterfaceOperator, stiffness: &[f64], u: &[f64]) -> Vec<f64> {
+    let c = interface.coupling.components;
+    let jumps = interface.jumps(u);
     let mut tractions = vec![0.0; jumps.len()];
     for ((traction, jump), d) in
         tractions.chunks_exact_mut(c).zip(jumps.chunks_exact(c)).zip(stiffness.chunks_exact(c * c))

@@ -9,7 +9,7 @@
 use super::refine::Factored;
 use super::{Base, NodalSolution};
 
-/// Loads and prescribed displacements that are affine in the load level: their values at levels 0 and 1.
+/// Loads and prescribed displacements that are affine in the load factor: their values at levels 0 and 1.
 #[derive(Debug, Clone)]
 pub struct Ramp {
     /// External forces [force].
@@ -55,8 +55,9 @@ impl Functional {
         measures: &[LinearMeasure],
     ) -> Vec<Functional> {
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let coefficients = |v: &[f64]| active.iter().flat_map(|&k| base.joints[k].coefficients(v)).collect();
-        let nothing = vec![0.0; base.held().len()];
+        let coefficients =
+            |v: &[f64]| active.iter().flat_map(|&k| base.interfaces[k].coefficients(v)).collect();
+        let nothing = vec![0.0; base.constrained().len()];
         let mut functionals = Vec::with_capacity(measures.len());
         let mut columns = Vec::new();
         for measure in measures {
@@ -65,8 +66,8 @@ impl Functional {
             match measure {
                 LinearMeasure::Displacement(terms) => terms.iter().for_each(|&(dof, value)| c[dof] += value),
                 LinearMeasure::Reaction(terms) => {
-                    let held = terms.iter().filter(|(dof, _)| base.held()[*dof]);
-                    held.for_each(|&(dof, value)| c[dof] += value);
+                    let constrained = terms.iter().filter(|(dof, _)| base.constrained()[*dof]);
+                    constrained.for_each(|&(dof, value)| c[dof] += value);
                     functional.ends = [0, 1].map(|end| -dot(&c, &ramp.force[end]));
                     functional.weights = coefficients(&c);
                     c = base.residual(&nothing, &c).into_iter().map(|r| -r).collect();
@@ -76,17 +77,17 @@ impl Functional {
             functionals.push(functional);
             columns.push(c);
         }
-        for (functional, moved) in functionals.iter_mut().zip(base.on_joints(active, columns)) {
+        for (functional, moved) in functionals.iter_mut().zip(base.on_interfaces(active, columns)) {
             functional.weights.resize(moved.len(), 0.0);
             functional.weights.iter_mut().zip(moved).for_each(|(weight, moved)| *weight -= moved);
         }
         functionals
     }
 
-    /// Its value at a level for what the joints carry beyond their springs.
-    pub(super) fn value(&self, level: f64, excess: &[f64]) -> f64 {
+    /// Its value at a level for what the interfaces carry beyond their springs.
+    pub(super) fn value(&self, load_factor: f64, excess: &[f64]) -> f64 {
         let [start, end] = self.ends;
-        let joints = self.weights.iter().zip(excess).map(|(weight, e)| weight * e).sum::<f64>();
-        start + level * (end - start) + joints
+        let interfaces = self.weights.iter().zip(excess).map(|(weight, e)| weight * e).sum::<f64>();
+        start + load_factor * (end - start) + interfaces
     }
 }

@@ -1,4 +1,4 @@
-//! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, joints and their stiffness.
+//! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, interfaces and their stiffness.
 
 mod apart;
 mod base;
@@ -20,7 +20,6 @@ mod linear;
 mod measure;
 mod method;
 mod modes;
-mod motions;
 mod newton;
 mod ordering;
 mod part;
@@ -29,6 +28,7 @@ mod plan;
 mod predict;
 mod primal;
 mod refine;
+mod rigid_modes;
 mod substructure;
 
 pub use base::Base;

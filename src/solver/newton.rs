@@ -1,5 +1,5 @@
 //! Newton's method with a line search, for any form of the equilibrium K u + Gᵀ q(G u) = f: under a load, or along the path of
-//! equilibria, where the load level λ is one more unknown and how far an increment goes is one more equation.
+//! equilibria, where the load factor λ is one more unknown and how far an increment goes is one more equation.
 //!
 //! ```text
 //! R(x) = A(x) − b₀ − λ b₁ = 0          ⎡ J   −b₁ ⎤ ⎡δx⎤   ⎡−R⎤
@@ -47,9 +47,11 @@ enum Aim<'a> {
 }
 
 impl Newton {
-    /// For the active joints of a form.
+    /// For the active interfaces of a form.
     pub fn new(form: &impl Form) -> Newton {
-        Newton { tangents: form.active().iter().map(|&k| InterfaceTangent::new(&form.joints()[k])).collect() }
+        Newton {
+            tangents: form.active().iter().map(|&k| InterfaceTangent::new(&form.interfaces()[k])).collect(),
+        }
     }
 
     /// Solves R(x) = 0 from the best of some starting points.
@@ -74,7 +76,7 @@ impl Newton {
         let Some((start, now)) = best else {
             return Err(Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 });
         };
-        let start = PathPoint { x: start.clone(), level: 0.0 };
+        let start = PathPoint { x: start.clone(), load_factor: 0.0 };
         self.search(form, laws, (start, now), &Aim::Load(target), settings).map(|(iterate, _)| iterate)
     }
 
@@ -88,12 +90,12 @@ impl Newton {
         constraint: &Constraint,
         settings: NewtonSettings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
-        let now = evaluate(form, laws, &start.x, &load.at(start.level))?;
+        let now = evaluate(form, laws, &start.x, &load.at(start.load_factor))?;
         let settings = NewtonSettings { patience: usize::MAX, ..settings };
         self.search(form, laws, (start, now), &Aim::Path(load, constraint), settings)
     }
 
-    /// The equilibrium of an aim and its load level.
+    /// The equilibrium of an aim and its load factor.
     fn search<L: Respond>(
         &mut self,
         form: &mut impl Form,
@@ -102,18 +104,21 @@ impl Newton {
         aim: &Aim,
         settings: NewtonSettings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
-        let PathPoint { mut x, mut level } = start;
+        let PathPoint { mut x, mut load_factor } = start;
         let mut residuals = vec![now.error];
         let (mut mark, mut since) = (now.error, 0);
         for iterations in 0..=settings.iterations {
             let missing = aim.missing(form, laws, &now);
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || self.rounding(form, laws, &x, &now, &aim.target(level));
+            let rounded = || self.rounding(form, laws, &x, &now, &aim.target(load_factor));
             let balanced = now.error <= settings.tolerance || stalled && now.error <= rounded();
             if iterations > 0 && balanced && missing.abs() <= MET {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
-                return Ok((Iterate { x, jumps, tractions, forces, memory, iterations, residuals }, level));
+                return Ok((
+                    Iterate { x, jumps, tractions, forces, memory, iterations, residuals },
+                    load_factor,
+                ));
             }
             if now.error < 0.5 * mark {
                 (mark, since) = (now.error, 0);
@@ -137,17 +142,17 @@ impl Newton {
                 return Err(unconverged(form, aim.singular(), &now, iterations));
             }
             let tolerance = settings.tolerance;
-            let Some((next, next_level, there)) = search_line(
+            let Some((next, next_load_factor, there)) = search_line(
                 form,
                 laws,
-                ((&x, level), &now),
+                ((&x, load_factor), &now),
                 (&correction, change),
                 (aim, missing),
                 tolerance,
             ) else {
                 return Err(unconverged(form, aim.unanswered(), &now, iterations));
             };
-            (x, level, now) = (next, next_level, there);
+            (x, load_factor, now) = (next, next_load_factor, there);
             residuals.push(now.error);
         }
         let (iterations, error) = (residuals.len() - 1, now.error);
@@ -215,15 +220,15 @@ impl Newton {
         settings: NewtonSettings,
     ) {
         for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
-            let joint = &form.joints()[k];
+            let interface = &form.interfaces()[k];
             if settings.initial_tangent {
                 let mut stiffness = stiffness.clone();
-                let c = joint.coupling.components;
+                let c = interface.coupling.components;
                 stiffness.chunks_exact_mut(c * c).for_each(|d| laws.initial_stiffness(k, d));
-                tangent.fill(joint, &stiffness);
+                tangent.fill(interface, &stiffness);
             } else {
                 let mut stiffness = stiffness.clone();
-                let c = joint.coupling.components;
+                let c = interface.coupling.components;
                 let mut intact = vec![0.0; c * c];
                 laws.initial_stiffness(k, &mut intact);
                 let normal = if opens_freely(&stiffness, &intact) { LOOSE } else { FREE };
@@ -235,18 +240,18 @@ impl Newton {
                         }
                     }
                 }
-                tangent.fill(joint, &stiffness);
+                tangent.fill(interface, &stiffness);
             }
         }
     }
 }
 
 impl Aim<'_> {
-    /// b at a load level.
-    fn target(&self, level: f64) -> Cow<'_, [f64]> {
+    /// b at a load factor.
+    fn target(&self, load_factor: f64) -> Cow<'_, [f64]> {
         match self {
             Aim::Load(target) => Cow::Borrowed(target),
-            Aim::Path(load, _) => Cow::Owned(load.at(level)),
+            Aim::Path(load, _) => Cow::Owned(load.at(load_factor)),
         }
     }
 
@@ -293,7 +298,7 @@ impl Aim<'_> {
 fn search_line<L: Respond>(
     form: &impl Form,
     laws: &L,
-    ((x, level), now): ((&[f64], f64), &Evaluation<L::Memory>),
+    ((x, load_factor), now): ((&[f64], f64), &Evaluation<L::Memory>),
     (correction, change): (&[f64], f64),
     (aim, missing): (&Aim, f64),
     tolerance: f64,
@@ -302,12 +307,12 @@ fn search_line<L: Respond>(
     let (mut step, mut best) = (1.0, None::<(f64, (Vec<f64>, f64, Evaluation<L::Memory>))>);
     for _ in 0..=aim.halvings() {
         let next: Vec<f64> = x.iter().zip(correction).map(|(x, d)| x + step * d).collect();
-        let next_level = level + step * change;
-        if let Ok(there) = evaluate(form, laws, &next, &aim.target(next_level)) {
+        let next_load_factor = load_factor + step * change;
+        if let Ok(there) = evaluate(form, laws, &next, &aim.target(next_load_factor)) {
             let value = aim.merit(there.error, aim.missing(form, laws, &there), tolerance);
             if value.is_finite() {
                 if best.as_ref().is_none_or(|(kept, _)| value < *kept) {
-                    best = Some((value, (next, next_level, there)));
+                    best = Some((value, (next, next_load_factor, there)));
                 }
                 if value <= (1.0 - SUFFICIENT * step) * before {
                     break;

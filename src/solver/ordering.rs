@@ -3,7 +3,7 @@
 //! ```text
 //!   ┌────────┬─┬────────┐    The nodes are cut in two along one direction. Those of one part that touch the other are
 //!   │ first  │s│ second │    the separator s and come last; then each part again, down to small leaves. Of all cuts the
-//!   └────────┴─┴────────┘    one with the least |s| / (|first| |second|) is taken: it runs along a joint where one is near.
+//!   └────────┴─┴────────┘    one with the least |s| / (|first| |second|) is taken: it runs along an interface where one is near.
 //! ```
 //!
 //! Separators are taken from the graph of the matrix, so that any coordinates give a valid order and good ones a sparse

@@ -1,4 +1,4 @@
-//! One part of a matrix with the border it touches: its factor, what it adds to the border, and both substitutions.
+//! One part of a matrix with the separator it touches: its factor, what it adds to the separator, and both substitutions.
 //!
 //! ```text
 //!   [A Bᵀ; B C] = [L 0; M N] [L 0; M N]ᵀ      A = L Lᵀ      M = B L⁻ᵀ      N Nᵀ − C = −B A⁻¹ Bᵀ
@@ -14,15 +14,15 @@ use super::graph::Graph;
 use super::{NotPositiveDefinite, Symbolic};
 use crate::assembly::{Pattern, Symmetric};
 
-/// A part with its border.
+/// A part with its separator.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// [Aₚ Bₚᵀ; Bₚ C], the border last.
+    /// [Aₚ Bₚᵀ; Bₚ C], the separator last.
     pub(super) block: Submatrix,
-    /// Number of dofs before those of the border.
+    /// Number of dofs before those of the separator.
     pub(super) inner: usize,
-    /// Place of its border dofs in the whole border.
-    pub(super) border: Vec<u32>,
+    /// Place of its separator dofs in the whole separator.
+    pub(super) separator: Vec<u32>,
     pub(super) plan: Symbolic,
 }
 
@@ -92,7 +92,7 @@ impl Submatrix {
 
 impl Part {
     /// L and −B A⁻¹ Bᵀ. With `lifted` the diagonal of C is doubled on the way, which changes neither: the part need not
-    /// be positive definite as a whole then, only without its border.
+    /// be positive definite as a whole then, only without its separator.
     pub(super) fn factor(
         &self,
         matrix: &Symmetric,
@@ -109,7 +109,7 @@ impl Part {
             .collect();
         let values = self.plan.factor_values(SparseColMatRef::new(self.block.structure(), &entries))?;
         drop(entries);
-        let m = self.border.len();
+        let m = self.separator.len();
         let mut l = Mat::zeros(m, m);
         for (start, columns, below) in self.plan.supernodes(&values) {
             let width = columns.ncols();

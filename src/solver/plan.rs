@@ -25,7 +25,7 @@ pub enum Factor<'a> {
 }
 
 impl FactorPlan {
-    /// Orders and analyses a pattern: a large one in parts where its border is small. `coordinates` are those of its
+    /// Orders and analyses a pattern: a large one in parts where its separator is small. `coordinates` are those of its
     /// nodes, one node after the other.
     pub fn analyse(pattern: &Pattern, coordinates: &[f64]) -> Result<FactorPlan, TooLarge> {
         if pattern.size() <= MEDIUM {

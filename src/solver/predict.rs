@@ -70,7 +70,7 @@ pub fn leave<L: Respond>(
     let (mut low, mut high, mut change) = (0.0, f64::INFINITY, 1e-3);
     for _ in 0..TRIALS {
         let point = at(change);
-        let spent = evaluate(form, laws, &point.x, &load.at(point.level));
+        let spent = evaluate(form, laws, &point.x, &load.at(point.load_factor));
         let spent = spent.map_or(f64::INFINITY, |there| dissipated(form, laws, &there));
         if (0.5..2.0).contains(&(spent / amount)) {
             return Ok(point);
@@ -81,7 +81,7 @@ pub fn leave<L: Respond>(
     Err(unconverged(form, "nothing dissipates along the path", &now, 0))
 }
 
-/// The point that the tangent leads to by a change of the load level.
+/// The point that the tangent leads to by a change of the load factor.
 pub fn ahead<L: Respond>(
     newton: &mut Newton,
     form: &mut impl Form,
@@ -104,7 +104,7 @@ fn tangent<L: Respond>(
     load: &Affine,
     settings: NewtonSettings,
 ) -> Result<(Evaluation<L::Memory>, Vec<f64>), Unconverged> {
-    let now = evaluate(form, laws, &from.x, &load.at(from.level))?;
+    let now = evaluate(form, laws, &from.x, &load.at(from.load_factor))?;
     newton.fill(form, laws, &now, settings);
     let mut direction = load.change.clone();
     if form.factor(&newton.tangents) {
@@ -115,5 +115,5 @@ fn tangent<L: Respond>(
 
 fn moved(from: &PathPoint, direction: &[f64], change: f64) -> PathPoint {
     let x = from.x.iter().zip(direction).map(|(x, d)| x + change * d).collect();
-    PathPoint { x, level: from.level + change }
+    PathPoint { x, load_factor: from.load_factor + change }
 }

@@ -4,7 +4,7 @@
 //! R(u) = K u + Gᵀ q(G u) − f   where free,   k (u − ū)   where held      J = K + Gᵀ T G,   k 1
 //! ```
 //!
-//! The independent check of the condensed form, and the way for joints whose dense flexibility would not fit. Its accuracy
+//! The independent check of the condensed form, and the way for interfaces whose dense flexibility would not fit. Its accuracy
 //! ends at ε K_N h/E, because u_B − u_A is taken before it is multiplied by K_N.
 
 use faer::linalg::solvers::Solve;
@@ -14,7 +14,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use super::dense::column_mut;
 use super::linear::tractions;
 use super::{Form, NodalSolution};
-use crate::assembly::{InterfaceTangent, Joint, Pattern, Symmetric};
+use crate::assembly::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -22,13 +22,13 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// The plain form under one set of supports.
 #[derive(Debug)]
 pub struct Primal<'a> {
-    joints: &'a [Joint],
+    interfaces: &'a [InterfaceOperator],
     active: Vec<usize>,
-    /// Law stiffness of the other joints.
+    /// Law stiffness of the other interfaces.
     stiffness: &'a [Vec<f64>],
     pattern: &'a Pattern,
     continuum: &'a Symmetric,
-    held: Vec<bool>,
+    constrained: Vec<bool>,
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
     symbolic: Option<SymbolicLu<usize>>,
@@ -36,40 +36,51 @@ pub struct Primal<'a> {
 }
 
 impl<'a> Primal<'a> {
-    /// Of the continuum alone on its pattern, with the joints in `active` and, as constant springs, all others.
+    /// Of the continuum alone on its pattern, with the interfaces in `active` and, as constant springs, all others.
     pub fn new(
-        joints: &'a [Joint],
+        interfaces: &'a [InterfaceOperator],
         active: &[usize],
         stiffness: &'a [Vec<f64>],
         pattern: &'a Pattern,
         continuum: &'a Symmetric,
-        held: &[bool],
+        constrained: &[bool],
     ) -> Primal<'a> {
         let diagonal = |j: usize| continuum.values[pattern.column(j).start];
         let scale = (0..pattern.size()).map(diagonal).fold(0.0, f64::max);
-        let (active, held) = (active.to_vec(), held.to_vec());
-        Primal { joints, active, stiffness, pattern, continuum, held, scale, symbolic: None, factor: None }
+        let (active, constrained) = (active.to_vec(), constrained.to_vec());
+        Primal {
+            interfaces,
+            active,
+            stiffness,
+            pattern,
+            continuum,
+            constrained,
+            scale,
+            symbolic: None,
+            factor: None,
+        }
     }
 
     fn passive(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.joints.len()).filter(|k| !self.active.contains(k))
+        (0..self.interfaces.len()).filter(|k| !self.active.contains(k))
     }
 
-    /// K u + Gᵀ q of all joints.
+    /// K u + Gᵀ q of all interfaces.
     fn internal(&self, u: &[f64], forces: &[Vec<f64>]) -> Vec<f64> {
         let mut internal = vec![0.0; u.len()];
         self.continuum.add_product_by_differences(self.pattern, u, &mut internal);
-        self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut internal));
+        self.active.iter().zip(forces).for_each(|(&k, q)| self.interfaces[k].add_nodal(q, &mut internal));
         for k in self.passive() {
-            self.joints[k].add_force(&tractions(&self.joints[k], &self.stiffness[k], u), &mut internal);
+            self.interfaces[k]
+                .add_force(&tractions(&self.interfaces[k], &self.stiffness[k], u), &mut internal);
         }
         internal
     }
 }
 
 impl Form for Primal<'_> {
-    fn joints(&self) -> &[Joint] {
-        self.joints
+    fn interfaces(&self) -> &[InterfaceOperator] {
+        self.interfaces
     }
 
     fn active(&self) -> &[usize] {
@@ -77,17 +88,17 @@ impl Form for Primal<'_> {
     }
 
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64> {
-        let value = |i: usize| if self.held[i] { self.scale * prescribed[i] } else { force[i] };
+        let value = |i: usize| if self.constrained[i] { self.scale * prescribed[i] } else { force[i] };
         (0..force.len()).map(value).collect()
     }
 
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>> {
-        self.active.iter().map(|&k| self.joints[k].coefficients(x)).collect()
+        self.active.iter().map(|&k| self.interfaces[k].coefficients(x)).collect()
     }
 
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
         let internal = self.internal(x, forces);
-        let value = |i: usize| if self.held[i] { self.scale * x[i] } else { internal[i] };
+        let value = |i: usize| if self.constrained[i] { self.scale * x[i] } else { internal[i] };
         (0..x.len()).map(|i| value(i) - target[i]).collect()
     }
 
@@ -96,11 +107,17 @@ impl Form for Primal<'_> {
         let squares = |v: &mut dyn Iterator<Item = f64>| v.map(|v| v * v).sum::<f64>();
         let misfit = squares(&mut residual.iter().copied());
         let internal = self.internal(x, forces);
-        let mut joints = vec![0.0; x.len()];
-        self.active.iter().zip(forces).for_each(|(&k, q)| self.joints[k].add_nodal(q, &mut joints));
+        let mut interfaces = vec![0.0; x.len()];
+        self.active.iter().zip(forces).for_each(|(&k, q)| self.interfaces[k].add_nodal(q, &mut interfaces));
         let scale = squares(&mut internal.into_iter())
-            + squares(&mut joints.into_iter())
-            + squares(&mut target.iter().zip(&self.held).filter(|(_, held)| !**held).map(|(f, _)| *f));
+            + squares(&mut interfaces.into_iter())
+            + squares(
+                &mut target
+                    .iter()
+                    .zip(&self.constrained)
+                    .filter(|(_, constrained)| !**constrained)
+                    .map(|(f, _)| *f),
+            );
         if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
     }
 
@@ -110,13 +127,13 @@ impl Form for Primal<'_> {
         self.continuum.add_absolute_product(self.pattern, x, &mut sizes);
         let mut squares = sizes.iter().map(|size| size * size).sum::<f64>();
         for (&k, tangent) in self.active.iter().zip(tangents) {
-            let joint = &self.joints[k];
+            let interface = &self.interfaces[k];
             let sum = |i: usize| {
-                let (dofs, values) = joint.row(i);
+                let (dofs, values) = interface.row(i);
                 dofs.iter().zip(values).map(|(&dof, value)| (value * x[dof]).abs()).sum::<f64>()
             };
-            let jumps: Vec<f64> = (0..joint.size()).map(sum).collect();
-            for i in 0..joint.size() {
+            let jumps: Vec<f64> = (0..interface.size()).map(sum).collect();
+            for i in 0..interface.size() {
                 let (columns, values) = tangent.matrix.row(i);
                 let force = columns.iter().zip(values).map(|(&j, value)| value.abs() * jumps[j]).sum::<f64>();
                 squares += force * force;
@@ -131,7 +148,7 @@ impl Form for Primal<'_> {
         let n = self.pattern.size();
         let mut triplets = Vec::new();
         let mut entry = |i: usize, j: usize, value: f64| {
-            if !self.held[i] {
+            if !self.constrained[i] {
                 triplets.push(Triplet::new(i, j, value));
             }
         };
@@ -145,14 +162,14 @@ impl Form for Primal<'_> {
             }
         }
         for (&k, tangent) in self.active.iter().zip(tangents) {
-            self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
+            self.interfaces[k].visit_stiffness(&tangent.matrix, &mut entry);
         }
         for k in self.passive() {
-            let mut tangent = InterfaceTangent::new(&self.joints[k]);
-            tangent.fill(&self.joints[k], &self.stiffness[k]);
-            self.joints[k].visit_stiffness(&tangent.matrix, &mut entry);
+            let mut tangent = InterfaceTangent::new(&self.interfaces[k]);
+            tangent.fill(&self.interfaces[k], &self.stiffness[k]);
+            self.interfaces[k].visit_stiffness(&tangent.matrix, &mut entry);
         }
-        triplets.extend((0..n).filter(|&i| self.held[i]).map(|i| Triplet::new(i, i, self.scale)));
+        triplets.extend((0..n).filter(|&i| self.constrained[i]).map(|i| Triplet::new(i, i, self.scale)));
         let Ok(matrix) = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &triplets) else {
             return false;
         };
@@ -175,17 +192,23 @@ impl Form for Primal<'_> {
     }
 
     fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64> {
-        let mut weights = vec![0.0; self.held.len()];
-        self.active.iter().zip(of_coefficients).for_each(|(&k, c)| self.joints[k].add_nodal(c, &mut weights));
+        let mut weights = vec![0.0; self.constrained.len()];
+        self.active
+            .iter()
+            .zip(of_coefficients)
+            .for_each(|(&k, c)| self.interfaces[k].add_nodal(c, &mut weights));
         weights
     }
 
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {
         let internal = self.internal(x, forces);
         let residual: Vec<f64> = internal.iter().zip(force).map(|(internal, f)| internal - f).collect();
-        let reactions =
-            residual.iter().zip(&self.held).map(|(r, &held)| if held { *r } else { 0.0 }).collect();
-        let u = (0..x.len()).map(|i| if self.held[i] { prescribed[i] } else { x[i] }).collect();
+        let reactions = residual
+            .iter()
+            .zip(&self.constrained)
+            .map(|(r, &constrained)| if constrained { *r } else { 0.0 })
+            .collect();
+        let u = (0..x.len()).map(|i| if self.constrained[i] { prescribed[i] } else { x[i] }).collect();
         let target = self.target(force, prescribed);
         let backward_error = self.error(&self.residual(x, forces, &target), x, forces, &target);
         NodalSolution { u, reactions, backward_error }

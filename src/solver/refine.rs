@@ -30,7 +30,7 @@ struct Refined {
 /// A factored matrix with its supports.
 pub trait Factored {
     /// True where a dof is prescribed.
-    fn held(&self) -> &[bool];
+    fn constrained(&self) -> &[bool];
     /// f − A u.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64>;
     /// scale += |A| |u|: what an answer is measured by.
@@ -48,7 +48,7 @@ pub trait Factored {
 
     /// Solves for several pairs of forces and prescribed displacements, side by side in one sweep through the factors.
     fn refined_all(&self, loads: &[(&[f64], &[f64])]) -> Vec<NodalSolution> {
-        let free = |i: usize| !self.held()[i];
+        let free = |i: usize| !self.constrained()[i];
         let start = |&(f, prescribed): &(&[f64], &[f64])| {
             let u: Vec<f64> = (0..f.len()).map(|i| if free(i) { 0.0 } else { prescribed[i] }).collect();
             let residual = self.residual(f, &u);
@@ -91,7 +91,11 @@ pub trait Factored {
 
     /// The residual with its sign changed at the supports.
     fn reactions(&self, residual: &[f64]) -> Vec<f64> {
-        residual.iter().zip(self.held()).map(|(r, &held)| if held { -r } else { 0.0 }).collect()
+        residual
+            .iter()
+            .zip(self.constrained())
+            .map(|(r, &constrained)| if constrained { -r } else { 0.0 })
+            .collect()
     }
 
     /// max |r| / (|A| |u| + |f|) over the free dofs; and the same with |A| |u| by differences.
@@ -104,7 +108,7 @@ pub trait Factored {
             if !scale.iter().all(|scale| scale.is_finite()) {
                 return f64::INFINITY; // overflow: a maximum would pass over what is not a number
             }
-            let free = (0..f.len()).filter(|&i| !self.held()[i] && scale[i] > 0.0);
+            let free = (0..f.len()).filter(|&i| !self.constrained()[i] && scale[i] > 0.0);
             free.map(|i| residual[i].abs() / scale[i]).fold(0.0, f64::max)
         })
     }

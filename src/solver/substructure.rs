@@ -1,7 +1,7 @@
-//! One body condensed on the nodes that joints touch: its interior eliminated, a dense S left on its border.
+//! One body condensed on the nodes that interfaces touch: its interior eliminated, a dense S left on its separator.
 //!
 //! ```text
-//!   S = C − B A⁻¹ Bᵀ      A: the interior, C: the border; symmetric, singular for a floating body
+//!   S = C − B A⁻¹ Bᵀ      A: the interior, C: the separator; symmetric, singular for a floating body
 //! ```
 //!
 //! It knows nothing of other bodies, so whoever has the same body again can have the same condensation.
@@ -19,7 +19,7 @@ pub struct Substructure {
     pub(super) pattern: Pattern,
     /// K.
     pub(super) stiffness: Symmetric,
-    /// The interior as one part, the rest as border.
+    /// The interior as one part, the rest as separator.
     pub(super) parts: Parts,
     /// Condensations that are kept.
     kept: Mutex<Vec<Arc<CondensedSubdomain>>>,
@@ -29,7 +29,7 @@ pub struct Substructure {
 #[derive(Debug)]
 pub struct CondensedSubdomain {
     /// Dofs of the interior that are held.
-    held: Vec<bool>,
+    constrained: Vec<bool>,
     /// Values of L.
     pub(super) values: Vec<Vec<f64>>,
     /// Lower triangle of S.
@@ -40,29 +40,29 @@ impl Substructure {
     /// Assembles a body and plans its condensation on the nodes that are `joined`.
     pub fn new(
         components: usize,
-        body: &Body,
+        subdomain: &Body,
         thickness: f64,
         joined: &[bool],
     ) -> Result<Substructure, TooLarge> {
-        let pattern = body.pattern(components);
-        let stiffness = body.stiffness(&pattern, thickness);
-        let order = nested_dissection(&pattern, body.mesh.points.as_flattened());
-        let parts = Parts::new(&pattern, Cut::along_joints(&pattern, &order, joined))?;
+        let pattern = subdomain.pattern(components);
+        let stiffness = subdomain.stiffness(&pattern, thickness);
+        let order = nested_dissection(&pattern, subdomain.mesh.points.as_flattened());
+        let parts = Parts::new(&pattern, Cut::along_interfaces(&pattern, &order, joined))?;
         Ok(Substructure { pattern, stiffness, parts, kept: Mutex::default() })
     }
 
-    /// Eliminates the interior; `held` are its held dofs, none on the border.
-    pub(super) fn condense(&self, held: Vec<bool>) -> Result<CondensedSubdomain, NotPositiveDefinite> {
+    /// Eliminates the interior; `held` are its held dofs, none on the separator.
+    pub(super) fn condense(&self, constrained: Vec<bool>) -> Result<CondensedSubdomain, NotPositiveDefinite> {
         let mut matrix = self.stiffness.clone();
-        matrix.hold(&self.pattern, &held);
+        matrix.hold(&self.pattern, &constrained);
         let (values, schur) = self.parts.eliminate(&matrix, true)?;
-        Ok(CondensedSubdomain { held, values, schur })
+        Ok(CondensedSubdomain { constrained, values, schur })
     }
 
     /// A condensation that was kept for these supports.
-    pub(super) fn kept(&self, held: &[bool]) -> Option<Arc<CondensedSubdomain>> {
+    pub(super) fn kept(&self, constrained: &[bool]) -> Option<Arc<CondensedSubdomain>> {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.iter().find(|condensed| condensed.held == held).cloned()
+        kept.iter().find(|condensed| condensed.constrained == constrained).cloned()
     }
 
     /// Keeps a condensation for whoever has this body again.
@@ -72,7 +72,7 @@ impl Substructure {
 
     /// Memory of a condensation [bytes].
     pub(super) fn bytes(&self) -> usize {
-        let border = self.parts.border();
-        size_of::<f64>() * (self.parts.entries() + border * border)
+        let separator = self.parts.separator();
+        size_of::<f64>() * (self.parts.entries() + separator * separator)
     }
 }

@@ -28,7 +28,7 @@ pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<StudyPoint>> 
         Design::Grid => {
             let total = lists.iter().try_fold(1_usize, |n, list| n.checked_mul(list.len()));
             if total.is_none_or(|total| total > MOST) {
-                return Err(source.refuse(&["axes"], "more than a million points", "shorten the axes"));
+                return Err(source.error_at(&["axes"], "more than a million points", "shorten the axes"));
             }
             lists.iter().fold(vec![Vec::new()], |points, list| {
                 let longer = |point: &Vec<Option<Value>>| {
@@ -52,7 +52,7 @@ pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<StudyPoint>> 
         }
         Design::LatinHypercube { points, seed } => {
             if points == 0 || points > MOST {
-                return Err(source.refuse(&["design"], format!("{points} points"), "ask for some"));
+                return Err(source.error_at(&["design"], format!("{points} points"), "ask for some"));
             }
             latin_hypercube(study, &lists, points, seed)
         }
@@ -77,7 +77,7 @@ fn axis_settings(axis: &Axis, value: &Value) -> Vec<String> {
     let keys = axis.key.iter().flat_map(|key| key.names()).cloned();
     let parameters = axis.parameter.iter().flat_map(|parameter| parameter.names());
     let parameters = parameters.filter_map(|name| name.split_once('.'));
-    let parameters = parameters.map(|(body, name)| format!("/subdomains/{body}/parameters/{name}"));
+    let parameters = parameters.map(|(subdomain, name)| format!("/subdomains/{subdomain}/parameters/{name}"));
     let keys: Vec<String> = keys.chain(parameters).collect();
     match value {
         Value::Object(settings) if keys.is_empty() => {
@@ -92,33 +92,33 @@ fn check(name: &str, axis: &Axis, source: &Source) -> Result<()> {
     let given = [axis.values.is_some(), axis.range.is_some(), axis.log_range.is_some()];
     if given.iter().filter(|given| **given).count() != 1 {
         let what = "an axis has one of values, range and log_range";
-        return Err(source.refuse(&path, what, "such as \"values\": [4, 8, 16]"));
+        return Err(source.error_at(&path, what, "such as \"values\": [4, 8, 16]"));
     }
     if axis.values.as_ref().is_some_and(Vec::is_empty) {
-        return Err(source.refuse(&["axes", name, "values"], "no values", "list some"));
+        return Err(source.error_at(&["axes", name, "values"], "no values", "list some"));
     }
     if axis.values.is_none() && axis.count.is_none_or(|count| count == 0 || count > MOST) {
-        return Err(source.refuse(&path, "a range without \"count\"", "say how many values it has"));
+        return Err(source.error_at(&path, "a range without \"count\"", "say how many values it has"));
     }
     let finite = |range: &[f64; 2]| range.iter().all(|end| end.is_finite());
     if !axis.range.iter().chain(&axis.log_range).all(finite) {
-        return Err(source.refuse(&path, "a range that does not end", "its ends are numbers"));
+        return Err(source.error_at(&path, "a range that does not end", "its ends are numbers"));
     }
     if axis.log_range.is_some_and(|[a, b]| a <= 0.0 || b <= 0.0) {
         let what = "a log_range that touches zero";
-        return Err(source.refuse(&["axes", name, "log_range"], what, "both ends are positive"));
+        return Err(source.error_at(&["axes", name, "log_range"], what, "both ends are positive"));
     }
     let mut parameters = axis.parameter.iter().flat_map(|names| names.names());
     if let Some(wrong) = parameters.find(|name| !name.contains('.')) {
         let what = format!("\"{wrong}\" names no subdomain");
-        let cure = "write <subdomain>.<parameter>, such as lower.edges";
-        return Err(source.refuse(&["axes", name, "parameter"], what, cure));
+        let help = "write <subdomain>.<parameter>, such as lower.edges";
+        return Err(source.error_at(&["axes", name, "parameter"], what, help));
     }
     if axis.key.is_none() && axis.parameter.is_none() {
         let objects = axis.values.as_ref().is_some_and(|values| values.iter().all(Value::is_object));
         if !objects {
-            let cure = "name one, or make every value an object of settings";
-            return Err(source.refuse(&path, "neither \"key\" nor \"parameter\"", cure));
+            let help = "name one, or make every value an object of settings";
+            return Err(source.error_at(&path, "neither \"key\" nor \"parameter\"", help));
         }
     }
     Ok(())
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_axis_is_refused_with_its_line_and_cure() {
+    fn a_wrong_axis_is_refused_with_its_line_and_help() {
         for (axis, expected) in [
             (r#"{ "key": "x" }"#, "study.json:2 axes.a: an axis has one of values, range and log_range"),
             (r#"{ "key": "x", "values": [] }"#, "axes.a.values: no values; list some"),

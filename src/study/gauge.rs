@@ -1,7 +1,7 @@
 //! What is taken from a run while it goes: the columns of its history, and norms at its end.
 //!
 //! ```text
-//!   error of a field = √(∫ |field − exact|² / ∫ |exact|²)      joints: Σ over law points, bodies: Σ over cells
+//!   error of a field = √(∫ |field − exact|² / ∫ |exact|²)      interfaces: Σ over law points, bodies: Σ over cells
 //! ```
 
 use indexmap::IndexMap;
@@ -54,8 +54,8 @@ impl<'a> Gauge<'a> {
             }
         }
         let model = &problem.model;
-        let stiffness = model.joints.iter().zip(&problem.laws);
-        let stiffness = stiffness.map(|(joint, (law, _))| stiffness_number(model, joint, law));
+        let stiffness = model.interfaces.iter().zip(&problem.laws);
+        let stiffness = stiffness.map(|(interface, (law, _))| stiffness_number(model, interface, law));
         self.method = totals.method.name();
         self.counts = IndexMap::from([
             ("nodes", model.nodes() as f64),
@@ -91,17 +91,17 @@ fn error(problem: &Problem, state: &ModelState, field: Field, of: &str, exact: &
     let model = &problem.model;
     let sums = match field {
         Field::Displacement => displacement(model, &state.snapshot.u, of, exact),
-        Field::Traction => on_joint(model, &state.snapshot.tractions, of, exact),
-        Field::Jump => on_joint(model, &state.snapshot.jumps, of, exact),
+        Field::Traction => on_interface(model, &state.snapshot.tractions, of, exact),
+        Field::Jump => on_interface(model, &state.snapshot.jumps, of, exact),
     };
     let Some([misfit, size]) = sums else { return f64::NAN };
     if misfit == 0.0 { 0.0 } else { (misfit / size).sqrt() }
 }
 
-/// Σ w |field − exact|² and Σ w |exact|² over the law points of a joint.
-fn on_joint(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
-    let k = model.joints.iter().position(|joint| joint.name == of)?;
-    let coupling = &model.joints[k].coupling;
+/// Σ w |field − exact|² and Σ w |exact|² over the law points of an interface.
+fn on_interface(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
+    let k = model.interfaces.iter().position(|interface| interface.name == of)?;
+    let coupling = &model.interfaces[k].coupling;
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
         let [x, y] = point.position;
@@ -113,8 +113,8 @@ fn on_joint(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Value; 2
 
 /// ∫ |u − exact|² and ∫ |exact|² over a body.
 fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
-    let b = model.bodies.iter().position(|body| body.name == of)?;
-    let (mesh, u) = (&model.bodies[b].mesh, u.get(model.dofs_of(b))?);
+    let b = model.subdomains.iter().position(|subdomain| subdomain.name == of)?;
+    let (mesh, u) = (&model.subdomains[b].mesh, u.get(model.dofs_of(b))?);
     let mut sums = [0.0; 2];
     for (c, &shape) in mesh.cells.shapes.iter().enumerate() {
         let nodes = mesh.cells.nodes(c);

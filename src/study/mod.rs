@@ -149,7 +149,7 @@ fn known(plan: &StudyPlan, point: usize) -> Result<()> {
         total => Err(Error::Text {
             at: Box::new(At { key: format!("--point {point}"), ..Default::default() }),
             what: format!("the study has {total} points"),
-            cure: format!("they count from 0 to {}", total.max(1) - 1),
+            help: format!("they count from 0 to {}", total.max(1) - 1),
         }),
     }
 }

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use super::design::{StudyPoint, points, setting};
 use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
-use crate::error::{Error, Result, name_cure};
+use crate::error::{Error, Result, name_help};
 use crate::mesh;
 use crate::run::Shared;
 use crate::scene::probe::Probe;
@@ -39,18 +39,22 @@ impl StudyPlan {
         let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
         let scene = source.folder().join(&study.scene);
         if !scene.exists() {
-            let cure = format!("files are named relative to {}", source.folder().display());
-            return Err(source.refuse(&["scene"], format!("there is no {}", scene.display()), cure));
+            let help = format!("files are named relative to {}", source.folder().display());
+            return Err(source.error_at(&["scene"], format!("there is no {}", scene.display()), help));
         }
         if study.repeat == 0 {
-            return Err(source.refuse(&["repeat"], "0 runs of every point", "run it once or more"));
+            return Err(source.error_at(&["repeat"], "0 runs of every point", "run it once or more"));
         }
         let mut points = points(&study, &source)?;
         let designed = points.len();
         if let Some(reference) = &study.reference {
             if !(reference.ratio > 1.0 && reference.ratio.is_finite()) {
                 let what = format!("a ratio of {}", reference.ratio);
-                return Err(source.refuse(&["reference", "ratio"], what, "every run is finer than the last"));
+                return Err(source.error_at(
+                    &["reference", "ratio"],
+                    what,
+                    "every run is finer than the last",
+                ));
             }
             for run in &reference.runs {
                 let mut settings = vec!["/output/fields=none".to_string()];
@@ -117,12 +121,12 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
             }
             if name.contains('=') || of.contains('=') {
                 let what = format!("\"=\" in the measure \"{name}\" of \"{of}\"");
-                let cure =
+                let help =
                     "give it a column of the scene's \"output.history\" without \"=\" and measure that";
-                return Err(source.refuse(&["measures", name, "of"], what, cure));
+                return Err(source.error_at(&["measures", name, "of"], what, help));
             }
             Probe::parse(of, scene)
-                .map_err(|(what, cure)| source.refuse(&["measures", name, "of"], what, cure))?;
+                .map_err(|(what, help)| source.error_at(&["measures", name, "of"], what, help))?;
         }
         if let Measure::Error { field, of, .. } = measure {
             let known = match field {
@@ -134,8 +138,8 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
                     Field::Displacement => scene.subdomains.keys().map(String::as_str).collect::<Vec<_>>(),
                     _ => scene.interfaces.keys().map(String::as_str).collect(),
                 };
-                let cure = name_cure(of, names);
-                return Err(source.refuse(&["measures", name, "of"], format!("no \"{of}\""), cure));
+                let help = name_help(of, names);
+                return Err(source.error_at(&["measures", name, "of"], format!("no \"{of}\""), help));
             }
         }
     }

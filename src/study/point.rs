@@ -171,5 +171,5 @@ fn read(file: &Path) -> Option<PointOutcome> {
 }
 
 pub(super) fn broken(what: &str) -> Error {
-    Error::Program { program: "midplane".into(), what: what.into(), cure: "run it again".into() }
+    Error::Program { program: "midplane".into(), what: what.into(), help: "run it again".into() }
 }

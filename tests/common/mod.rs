@@ -175,14 +175,14 @@ pub fn solve(problem: &Problem) -> (Vec<ModelState>, Totals) {
 }
 
 /// Displacement of a node of a body.
-pub fn displacement(problem: &Problem, state: &ModelState, body: usize, node: usize) -> [f64; 2] {
-    let dof = 2 * (problem.model.bodies[body].first_node + node);
+pub fn displacement(problem: &Problem, state: &ModelState, subdomain: usize, node: usize) -> [f64; 2] {
+    let dof = 2 * (problem.model.subdomains[subdomain].first_node + node);
     [state.snapshot.u[dof], state.snapshot.u[dof + 1]]
 }
 
 /// Points of a group of a body.
-pub fn group(problem: &Problem, body: usize, name: &str) -> Vec<usize> {
-    let mesh = &problem.model.bodies[body].mesh;
+pub fn group(problem: &Problem, subdomain: usize, name: &str) -> Vec<usize> {
+    let mesh = &problem.model.subdomains[subdomain].mesh;
     mesh.groups[name].points(mesh)
 }
 

@@ -4,7 +4,7 @@
 //!   p p p p p
 //!  ┌─────────┐  y = 2     top = −p (2/E + 1/K_N), whatever the meshes
 //!  │  upper  │
-//!  ├─────────┤  y = 1     joint: lower.top, upper.bottom
+//!  ├─────────┤  y = 1     interface: lower.top, upper.bottom
 //!  │  lower  │
 //!  └─────────┘  y = 0     corner: the left end of the bottom
 //! ```

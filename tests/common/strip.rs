@@ -1,4 +1,4 @@
-//! Exact solutions of two layers with a joint at y = 0 under loads that are harmonic in x.
+//! Exact solutions of two layers with an interface at y = 0 under loads that are harmonic in x.
 //!
 //! ```text
 //!   u_x = P(y) sin kx,   u_y = Q(y) cos kx      0 < x < L = π/k, planes of symmetry at both ends
@@ -32,7 +32,7 @@ pub struct Answer {
     pub normal: f64,
     /// Amplitude of the shear traction, sin kx.
     pub shear: f64,
-    /// Strain energy of bodies and joint per thickness.
+    /// Strain energy of bodies and interface per thickness.
     pub energy: f64,
 }
 
@@ -74,7 +74,7 @@ impl Strip {
     pub fn solve(&self) -> Answer {
         let through = [0, 1].map(|layer| (self.system(layer) * self.h[layer]).exp());
         let (l, m) = lame(self.e[1], self.nu[1]);
-        // state below and above the joint, and tractions on the top, for unit slopes P′, Q′ at the bottom
+        // state below and above the interface, and tractions on the top, for unit slopes P′, Q′ at the bottom
         let unit = |i: usize| {
             let below: Vector4<f64> = through[0].column(2 + i).into();
             let t = self.traction(0, below);
@@ -104,7 +104,7 @@ pub struct Manufactured {
     pub p: [[f64; 3]; 2],
     /// Q likewise.
     pub q: [[f64; 3]; 2],
-    /// Amplitudes (σ_xy, σ_yy) at the joint.
+    /// Amplitudes (σ_xy, σ_yy) at the interface.
     pub traction: [f64; 2],
     pub kn: f64,
     pub kt: f64,

@@ -78,8 +78,8 @@ impl Reference {
         Reference { law, path: serde_json::from_str(&text).unwrap(), file }
     }
 
-    pub fn drive(&self, stepping: Integration) -> Vec<PathRow> {
-        drive(&self.law, &self.path, &State::default(), stepping).unwrap()
+    pub fn drive(&self, integration: Integration) -> Vec<PathRow> {
+        drive(&self.law, &self.path, &State::default(), integration).unwrap()
     }
 
     /// Largest errors of σ [MPa], τ [MPa] and W/G_I over the stored points.

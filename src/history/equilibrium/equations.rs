@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::Engine;
 use super::forms::{bases, blocks, condensed, plain};
 use super::linear::LinearEngine;
-use super::strategy::{Operations, asked, choose};
+use super::strategy::{Operations, choose, condensed_interfaces};
 use crate::assembly::{Pattern, Symmetric};
 use crate::error::Result;
 use crate::history::{Clock, memory};
@@ -17,7 +17,7 @@ use crate::solver::{
     Continuum, FactorPlan, Linear, Method, NewtonSettings, SubdomainCache, System, TooLarge,
 };
 
-/// Bodies of linear scenes are shared with other runs if at most so many of their dofs are on joints.
+/// Bodies of linear scenes are shared with other runs if at most so many of their dofs are on interfaces.
 const SHARED: usize = 12_000;
 
 /// Newton's method gives up if the residual has not halved in so many iterations.
@@ -29,13 +29,13 @@ pub struct Means {
     /// Memory [bytes]; a run that needs more is refused before its first factor.
     pub memory: Option<u64>,
     /// Bodies shared with other runs.
-    pub shelf: Option<Arc<SubdomainCache>>,
+    pub cache: Option<Arc<SubdomainCache>>,
 }
 
 impl Default for Means {
     /// All memory there is, nothing shared.
     fn default() -> Means {
-        Means { memory: memory::available(), shelf: None }
+        Means { memory: memory::available(), cache: None }
     }
 }
 
@@ -44,7 +44,7 @@ impl Default for Means {
 pub struct Equations<'a> {
     problem: &'a Problem,
     /// Numbers of the interfaces whose jumps are unknowns.
-    asked: Vec<usize>,
+    condensed_interfaces: Vec<usize>,
     /// Base stiffness at the law points of every interface.
     stiffness: Vec<Vec<f64>>,
     matrices: Matrices,
@@ -69,18 +69,19 @@ enum Matrices {
 impl<'a> Equations<'a> {
     /// Assembles what the scene's strategy asks for, within the means.
     pub fn new(problem: &'a Problem, means: Means, clock: &mut Clock) -> Result<Equations<'a>> {
-        let Means { memory: available, shelf } = means;
+        let Means { memory: available, cache } = means;
         clock.begin("assemble");
         let (model, strategy) = (&problem.model, problem.solution.strategy);
         let dofs = model.dofs();
         let too_large = |TooLarge| memory::too_large(dofs);
-        let asked = asked(problem);
-        let stiffness = (0..model.joints.len()).map(|k| springs(problem, k, &asked)).collect();
-        let linear = asked.is_empty();
+        let condensed_interfaces = condensed_interfaces(problem);
+        let stiffness =
+            (0..model.interfaces.len()).map(|k| base_stiffness(problem, k, &condensed_interfaces)).collect();
+        let linear = condensed_interfaces.is_empty();
         // a linear scene needs its condensation once, which pays only if others have it too
-        let shared = strategy == Strategy::Auto && shelf.is_some();
-        let border = || model.components * model.joined().into_iter().filter(|&joined| joined).count();
-        if linear && !(shared && border() <= SHARED) {
+        let shared = strategy == Strategy::Auto && cache.is_some();
+        let separator = || model.components * model.joined().into_iter().filter(|&joined| joined).count();
+        if linear && !(shared && separator() <= SHARED) {
             let pattern = model.pattern();
             let continuum = model.continuum(&pattern);
             let plan = order(problem, &pattern, available, clock)?;
@@ -88,7 +89,7 @@ impl<'a> Equations<'a> {
             let matrices = Matrices::Joined(pattern, continuum, plan);
             return Ok(Equations {
                 problem,
-                asked,
+                condensed_interfaces,
                 stiffness,
                 matrices,
                 method,
@@ -98,23 +99,23 @@ impl<'a> Equations<'a> {
         }
         let mut operations = None;
         if strategy != Strategy::Plain {
-            let continuum = Continuum::new(model, shelf).map_err(too_large)?;
-            let (method, estimate) = choose(problem, &continuum, &asked, available)?;
+            let continuum = Continuum::new(model, cache).map_err(too_large)?;
+            let (method, estimate) = choose(problem, &continuum, &condensed_interfaces, available)?;
             operations = Some(estimate).filter(|_| !linear);
             let factor_entries = continuum.entries();
             if method != Method::Plain {
-                let every = || 0..model.joints.len();
+                let every = || 0..model.interfaces.len();
                 let stiffness = match method {
                     Method::Blocks => {
                         let all: Vec<usize> = every().collect();
-                        every().map(|k| springs(problem, k, &all)).collect()
+                        every().map(|k| base_stiffness(problem, k, &all)).collect()
                     }
                     _ => stiffness,
                 };
                 let matrices = Matrices::Condensed(continuum);
                 return Ok(Equations {
                     problem,
-                    asked,
+                    condensed_interfaces,
                     stiffness,
                     matrices,
                     method,
@@ -128,31 +129,39 @@ impl<'a> Equations<'a> {
         let plan = order(problem, &pattern, available, clock)?;
         let (method, factor_entries) = (Method::Plain, plan.entries());
         let matrices = Matrices::Apart(pattern, continuum);
-        Ok(Equations { problem, asked, stiffness, matrices, method, operations, factor_entries })
+        Ok(Equations {
+            problem,
+            condensed_interfaces,
+            stiffness,
+            matrices,
+            method,
+            operations,
+            factor_entries,
+        })
     }
 
     /// The engine that solves them.
     pub(in crate::history) fn engine(&self) -> Box<dyn Engine + '_> {
-        let Equations { problem, asked, stiffness, .. } = self;
-        let joints = &problem.model.joints;
+        let Equations { problem, condensed_interfaces, stiffness, .. } = self;
+        let interfaces = &problem.model.interfaces;
         let settings = settings(&problem.solution);
         match &self.matrices {
             Matrices::Joined(pattern, continuum, plan) => {
-                let system = System { joints, stiffness, pattern, continuum };
-                let make = move |held: &[bool]| Ok((Linear::new(system, plan, held)?, true));
-                Box::new(LinearEngine::new(joints, Box::new(make)))
+                let system = System { interfaces, stiffness, pattern, continuum };
+                let make = move |constrained: &[bool]| Ok((Linear::new(system, plan, constrained)?, true));
+                Box::new(LinearEngine::new(interfaces, Box::new(make)))
             }
             Matrices::Condensed(continuum) if self.method == Method::Blocks => {
                 Box::new(blocks(problem, continuum, stiffness, settings))
             }
-            Matrices::Condensed(continuum) if asked.is_empty() => {
-                Box::new(LinearEngine::new(joints, bases(problem, continuum, stiffness)))
+            Matrices::Condensed(continuum) if condensed_interfaces.is_empty() => {
+                Box::new(LinearEngine::new(interfaces, bases(problem, continuum, stiffness)))
             }
             Matrices::Condensed(continuum) => {
-                Box::new(condensed(problem, continuum, asked, stiffness, settings))
+                Box::new(condensed(problem, continuum, condensed_interfaces, stiffness, settings))
             }
             Matrices::Apart(pattern, continuum) => {
-                Box::new(plain(problem, pattern, continuum, asked, stiffness, settings))
+                Box::new(plain(problem, pattern, continuum, condensed_interfaces, stiffness, settings))
             }
         }
     }
@@ -161,10 +170,13 @@ impl<'a> Equations<'a> {
     pub fn reused(&self) -> Vec<String> {
         let Matrices::Condensed(continuum) = &self.matrices else { return Vec::new() };
         let found = continuum.found();
-        let named = |what: &'static str, bodies: &[usize]| -> Vec<String> {
-            bodies.iter().map(|&b| format!("{what} of {}", self.problem.model.bodies[b].name)).collect()
+        let named = |what: &'static str, subdomains: &[usize]| -> Vec<String> {
+            subdomains
+                .iter()
+                .map(|&b| format!("{what} of {}", self.problem.model.subdomains[b].name))
+                .collect()
         };
-        [named("stiffness", &found.bodies), named("factor", &found.factors)].concat()
+        [named("stiffness", &found.subdomains), named("factor", &found.factors)].concat()
     }
 }
 
@@ -180,7 +192,7 @@ fn order(
     let plan = FactorPlan::analyse(pattern, &problem.model.coordinates());
     let plan = plan.map_err(|TooLarge| memory::too_large(dofs))?;
     let needed = memory::needed(plan.bytes(), pattern.rows.len(), dofs);
-    memory::refuse(dofs, plan.entries(), needed, available)?;
+    memory::check_fits(dofs, plan.entries(), needed, available)?;
     Ok(plan)
 }
 
@@ -191,15 +203,15 @@ fn settings(solution: &Solution) -> NewtonSettings {
     NewtonSettings { tolerance, iterations, patience, initial_tangent }
 }
 
-/// Law stiffness of a joint's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
+/// Law stiffness of an interface's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
 /// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
-fn springs(problem: &Problem, k: usize, asked: &[usize]) -> Vec<f64> {
-    let (joint, (law, _)) = (&problem.model.joints[k], &problem.laws[k]);
-    let midplane = &joint.coupling.midplane;
+fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -> Vec<f64> {
+    let (interface, (law, _)) = (&problem.model.interfaces[k], &problem.laws[k]);
+    let midplane = &interface.coupling.midplane;
     let edges = midplane.a.edges().min(midplane.b.edges());
-    let young = joint.bodies.map(|body| problem.model.bodies[body].elasticity.young);
+    let young = interface.subdomains.map(|subdomain| problem.model.subdomains[subdomain].elasticity.young);
     let soft = young[0].min(young[1]) * edges as f64 / midplane.length;
-    let most = if asked.contains(&k) { soft } else { f64::INFINITY };
+    let most = if condensed_interfaces.contains(&k) { soft } else { f64::INFINITY };
     let [kn, kt] = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
-    [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
+    [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
 }

@@ -48,9 +48,9 @@ pub(super) fn error_of<F: Form>(
     way: Way,
 ) -> Option<Estimate> {
     let problem = view.problem;
-    let straight = found.joints.iter().all(|of| {
-        let k = problem.laws[of.joint].0.elastic_stiffness();
-        old[of.joint].iter().zip(&of.memory).all(|(old, new)| is_straight(k, old, new))
+    let straight = found.interfaces.iter().all(|of| {
+        let k = problem.laws[of.interface].0.elastic_stiffness();
+        old[of.interface].iter().zip(&of.memory).all(|(old, new)| is_straight(k, old, new))
     });
     if straight {
         return None;
@@ -75,10 +75,10 @@ fn over_the_middle<F: Form>(
     let View { problem, prepared, form, .. } = *view;
     let target_of = |load| target(form, prepared, load).ok();
     let target = target_of(way.middle)?;
-    let laws = Laws { problem, old, viscosity: None, lags: false, held: None };
+    let laws = Laws { problem, old, viscosity: None, lags: false, intact: None };
     let x: Vec<f64> = view.unknowns.iter().zip(view.found).map(|(a, b)| 0.5 * (a + b)).collect();
     // on a path the load factor is corrected too, so that the middle stays on the plane across the way
-    let across = match way.step {
+    let across = match way.ends {
         Some([start, end]) => {
             let (start, end) = (target_of(start)?, target_of(end)?);
             let way = view.unknowns.iter().zip(view.found).map(|(a, b)| b - a).collect();
@@ -93,13 +93,13 @@ fn over_the_middle<F: Form>(
     for (&k, memory) in form.active().iter().zip(&better.memory) {
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
-    let onwards = Laws { problem, old: &states, viscosity: None, lags: false, held: None };
+    let onwards = Laws { problem, old: &states, viscosity: None, lags: false, intact: None };
     let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
-    for (a, of) in found.joints.iter().enumerate() {
-        let points = &problem.model.joints[of.joint].coupling.points;
-        for (p, (old, new)) in old[of.joint].iter().zip(&of.memory).enumerate() {
+    for (a, of) in found.interfaces.iter().enumerate() {
+        let points = &problem.model.interfaces[of.interface].coupling.points;
+        for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
             let area = problem.model.thickness * points[p].weight;
             let (there, here) = (&end.memory[a][p], &better.memory[a][p]);
             squares += points[p].weight * (there.state.traction - new.state.traction).norm_squared();
@@ -110,7 +110,7 @@ fn over_the_middle<F: Form>(
             estimate.work += area * bend.dot(&moved) / 3.0;
             bends += area * bend.dot(&moved).abs() / 3.0;
             estimate.cracked |= new.dissipation > 0.0
-                && problem.laws[of.joint].0.onset(new.state.jump, old).is_some_and(|share| share > ON);
+                && problem.laws[of.interface].0.onset(new.state.jump, old).is_some_and(|share| share > ON);
             works += area * 0.5 * (old.traction + new.state.traction).dot(&moved).abs();
         }
     }
@@ -126,7 +126,7 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
     let View { problem, prepared, form, .. } = *view;
     let target = target(form, prepared, load).ok()?;
     let force = |&k: &usize| {
-        let joint = &problem.model.joints[k];
+        let interface = &problem.model.interfaces[k];
         let states = &snapshot.states[k];
         let tractions: Vec<f64> = if states.is_empty() {
             let d = problem.laws[k].0.elastic_stiffness();
@@ -134,7 +134,7 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
         } else {
             states.iter().flat_map(|state| [state.traction.x, state.traction.y]).collect()
         };
-        joint.gather(&tractions)
+        interface.gather(&tractions)
     };
     let forces: Vec<Vec<f64>> = form.active().iter().map(force).collect();
     let residual = form.residual(view.unknowns, &forces, &target);

@@ -8,71 +8,71 @@ use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
 use crate::solver::{Base, Condensation, Condensed, Continuum, FloatingSubdomains, NewtonSettings, Primal};
 
-/// Makes the base system of a set of supports; one condensation serves all sets that differ on joints only.
+/// Makes the base system of a set of supports; one condensation serves all sets that differ on interfaces only.
 pub(super) fn bases<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,
     stiffness: &'a [Vec<f64>],
 ) -> Make<'a, Base<'a>> {
     let mut condense = condensations(continuum);
-    Box::new(move |held: &[bool]| {
-        let (condensation, anew) = condense(held)?;
-        Ok((Base::new(continuum, condensation, &problem.model.joints, stiffness, held)?, anew))
+    Box::new(move |constrained: &[bool]| {
+        let (condensation, anew) = condense(constrained)?;
+        Ok((Base::new(continuum, condensation, &problem.model.interfaces, stiffness, constrained)?, anew))
     })
 }
 
-/// Makes the condensation of a set of supports, which serves all sets that differ on joints only.
+/// Makes the condensation of a set of supports, which serves all sets that differ on interfaces only.
 pub(super) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Condensation>> {
     let mut condensed: Option<Arc<Condensation>> = None;
-    Box::new(move |held: &[bool]| {
-        let reused = condensed.take().filter(|condensation| continuum.serves(condensation, held));
+    Box::new(move |constrained: &[bool]| {
+        let reused = condensed.take().filter(|condensation| continuum.serves(condensation, constrained));
         let anew = reused.is_none();
         let condensation = match reused {
             Some(condensation) => condensation,
-            None => Arc::new(continuum.condense(held)?),
+            None => Arc::new(continuum.condense(constrained)?),
         };
         condensed = Some(condensation.clone());
         Ok((condensation, anew))
     })
 }
 
-/// On the jump coefficients of the joints in `asked`.
+/// On the jump coefficients of the interfaces in `asked`.
 pub(super) fn condensed<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,
-    asked: &'a [usize],
+    condensed_interfaces: &'a [usize],
     stiffness: &'a [Vec<f64>],
     settings: NewtonSettings,
 ) -> NewtonEngine<'a, Condensed<'a>> {
-    let size: usize = asked.iter().map(|&k| problem.model.joints[k].size()).sum();
-    let sound: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.joints))
-        .map(|((law, _), joint)| {
+    let size: usize = condensed_interfaces.iter().map(|&k| problem.model.interfaces[k].size()).sum();
+    let intact: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.interfaces))
+        .map(|((law, _), interface)| {
             let [kn, kt] = law.elastic_stiffness();
-            [kn, 0.0, 0.0, kt].repeat(joint.coupling.points.len())
+            [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
         })
         .collect();
     let mut base = bases(problem, continuum, stiffness);
-    let make = move |held: &[bool]| {
-        let (base, anew) = base(held)?;
-        Ok((Condensed::new(base, asked, stiffness, &sound), anew))
+    let make = move |constrained: &[bool]| {
+        let (base, anew) = base(constrained)?;
+        Ok((Condensed::new(base, condensed_interfaces, stiffness, &intact), anew))
     };
     NewtonEngine::new(problem, settings, Box::new(make), size)
 }
 
-/// On the jump coefficients of all joints and the rigid motions of floating bodies.
+/// On the jump coefficients of all interfaces and the rigid motions of floating bodies.
 pub(super) fn blocks<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,
     stiffness: &'a [Vec<f64>],
     settings: NewtonSettings,
 ) -> NewtonEngine<'a, FloatingSubdomains<'a>> {
-    let joints = &problem.model.joints;
+    let interfaces = &problem.model.interfaces;
     let mut condense = condensations(continuum);
-    let make = move |held: &[bool]| {
-        let (condensation, anew) = condense(held)?;
-        Ok((FloatingSubdomains::new(continuum, condensation, joints, stiffness, held)?, anew))
+    let make = move |constrained: &[bool]| {
+        let (condensation, anew) = condense(constrained)?;
+        Ok((FloatingSubdomains::new(continuum, condensation, interfaces, stiffness, constrained)?, anew))
     };
-    NewtonEngine::new(problem, settings, Box::new(make), FloatingSubdomains::unknowns(continuum, joints))
+    NewtonEngine::new(problem, settings, Box::new(make), FloatingSubdomains::unknowns(continuum, interfaces))
 }
 
 /// On all displacements.
@@ -80,12 +80,15 @@ pub(super) fn plain<'a>(
     problem: &'a Problem,
     pattern: &'a Pattern,
     k: &'a Symmetric,
-    asked: &'a [usize],
+    condensed_interfaces: &'a [usize],
     stiffness: &'a [Vec<f64>],
     settings: NewtonSettings,
 ) -> NewtonEngine<'a, Primal<'a>> {
-    let make = move |held: &[bool]| {
-        Ok((Primal::new(&problem.model.joints, asked, stiffness, pattern, k, held), true))
+    let make = move |constrained: &[bool]| {
+        Ok((
+            Primal::new(&problem.model.interfaces, condensed_interfaces, stiffness, pattern, k, constrained),
+            true,
+        ))
     };
     NewtonEngine::new(problem, settings, Box::new(make), problem.model.dofs())
 }

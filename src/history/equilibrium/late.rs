@@ -13,13 +13,13 @@ use crate::solver::{Form, NewtonSettings, along, ask};
 pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged) -> Option<Vec<Vec<bool>>> {
     let mut fractions: Vec<Vec<f64>> = old.iter().map(|states| vec![f64::NAN; states.len()]).collect();
     let mut first = 1.0_f64;
-    for of in &found.joints {
-        let law = &problem.laws[of.joint].0;
-        for (p, (old, new)) in old[of.joint].iter().zip(&of.memory).enumerate() {
+    for of in &found.interfaces {
+        let law = &problem.laws[of.interface].0;
+        for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
             if new.dissipation > 0.0
                 && let Some(fraction) = law.onset_or_on(new.state.jump, old)
             {
-                fractions[of.joint][p] = fraction;
+                fractions[of.interface][p] = fraction;
                 first = first.min(fraction);
             }
         }
@@ -39,18 +39,18 @@ pub(super) fn crack<F: Form>(
     settings: NewtonSettings,
 ) -> Option<bool> {
     let problem = view.problem;
-    let Some(held) = late(problem, old, found) else { return Some(true) };
+    let Some(intact) = late(problem, old, found) else { return Some(true) };
     let target = target(&*view.form, view.prepared, end).ok()?;
-    let laws = Laws { problem, old, viscosity: None, lags: false, held: Some(&held) };
+    let laws = Laws { problem, old, viscosity: None, lags: false, intact: Some(&intact) };
     let (form, newton) = (&mut *view.form, &mut *view.newton);
     let here = ask(form, &laws, view.found).ok()?;
     let residual = form.residual(view.found, &here.forces, &target);
     let change = residual.iter().map(|r| -r).collect();
     let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
-        let jumps = form.joints()[k].jumps_of(&coefficients);
-        for ((jump, old), held) in jumps.chunks_exact(2).zip(&old[k]).zip(&held[k]) {
-            if *held && problem.laws[k].0.onset([jump[0], jump[1]].into(), old).is_some() {
+        let jumps = form.interfaces()[k].jumps_of(&coefficients);
+        for ((jump, old), intact) in jumps.chunks_exact(2).zip(&old[k]).zip(&intact[k]) {
+            if *intact && problem.laws[k].0.onset([jump[0], jump[1]].into(), old).is_some() {
                 return Some(true);
             }
         }
@@ -81,7 +81,7 @@ pub(super) fn first_onset<F: Form>(
     };
     let mut first = 1.0_f64;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
-        let jumps = form.joints()[k].jumps_of(&coefficients);
+        let jumps = form.interfaces()[k].jumps_of(&coefficients);
         for (jump, old) in jumps.chunks_exact(2).zip(&old[k]) {
             let fraction = problem.laws[k].0.onset([jump[0], jump[1]].into(), old);
             first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));

@@ -25,28 +25,28 @@ pub(in crate::history) struct Laws<'a> {
     /// Friction lags wherever it is steep, not only where its slope has no bound.
     pub(in crate::history) lags: bool,
     /// Law points of every interface that are held elastic, if any are.
-    pub(in crate::history) held: Option<&'a [Vec<bool>]>,
+    pub(in crate::history) intact: Option<&'a [Vec<bool>]>,
 }
 
 impl<'a> Laws<'a> {
     /// The laws alone.
     pub(in crate::history) fn alone(problem: &'a Problem, old: &'a [Vec<law::State>]) -> Laws<'a> {
-        Laws { problem, old, viscosity: None, lags: false, held: None }
+        Laws { problem, old, viscosity: None, lags: false, intact: None }
     }
 
     /// The answer of the law alone.
     pub(in crate::history) fn own(
         &self,
-        joint: usize,
+        interface: usize,
         point: usize,
         jump: &[f64],
     ) -> Result<law::Response, String> {
-        let (law, _) = &self.problem.laws[joint];
-        let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[joint][point]);
-        let stepping = self.problem.stepping[joint];
+        let (law, _) = &self.problem.laws[interface];
+        let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[interface][point]);
+        let integration = self.problem.integration[interface];
         let answer = match self.viscosity {
-            Some(_) => law.respond_lagged(jump, old, stepping, self.lags),
-            None => law.respond(jump, old, stepping),
+            Some(_) => law.respond_lagged(jump, old, integration, self.lags),
+            None => law.respond(jump, old, integration),
         };
         answer.map_err(|why| why.to_string())
     }
@@ -57,31 +57,31 @@ impl Respond for Laws<'_> {
 
     fn respond(
         &self,
-        joint: usize,
+        interface: usize,
         point: usize,
         jump: &[f64],
         traction: &mut [f64],
         stiffness: &mut [f64],
     ) -> Result<PointResponse, String> {
-        let (law, _) = &self.problem.laws[joint];
+        let (law, _) = &self.problem.laws[interface];
         if let Law::Elastic(_) = law {
             let [kn, kt] = law.elastic_stiffness();
             traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
             stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
             return Ok(PointResponse::default());
         }
-        if self.held.is_some_and(|held| held[joint][point]) {
-            let (k, old) = (law.elastic_stiffness(), &self.old[joint][point]);
+        if self.intact.is_some_and(|intact| intact[interface][point]) {
+            let (k, old) = (law.elastic_stiffness(), &self.old[interface][point]);
             (0..2).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
             stiffness.copy_from_slice(&[k[0], 0.0, 0.0, k[1]]);
             return Ok(PointResponse::default());
         }
-        let answer = self.own(joint, point, jump)?;
+        let answer = self.own(interface, point, jump)?;
         traction.copy_from_slice(answer.traction.as_slice());
         stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
         let mut viscous = [0.0; 2];
         if let Some(c) = self.viscosity {
-            let old = &self.old[joint][point].jump;
+            let old = &self.old[interface][point].jump;
             for i in 0..2 {
                 viscous[i] = c * (jump[i] - old[i]);
                 traction[i] += viscous[i];
@@ -101,8 +101,8 @@ impl Respond for Laws<'_> {
         (memory.dissipation, &memory.gradient)
     }
 
-    fn initial_stiffness(&self, joint: usize, stiffness: &mut [f64]) {
-        let [kn, kt] = self.problem.laws[joint].0.elastic_stiffness();
+    fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]) {
+        let [kn, kt] = self.problem.laws[interface].0.elastic_stiffness();
         stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
     }
 }

@@ -1,16 +1,16 @@
-//! The engine of a linear scene: a step whose loads are affine in the load level takes two solves at most.
+//! The engine of a linear scene: a step whose loads are affine in the load factor takes two solves at most.
 
 use super::{Ahead, Engine, Estimate, Failure, Make, PathSearch, Search, Viscous, Way};
-use crate::assembly::Joint;
+use crate::assembly::InterfaceOperator;
 use crate::history::converged::{Converged, InterfaceResponse};
 use crate::history::loading::{Ledger, LoadForces, StepLoad};
 use crate::history::state::ModelState;
 use crate::solver::{Factored, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp};
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
-/// load level two at most.
+/// load factor two at most.
 pub(super) struct LinearEngine<'a, F> {
-    joints: &'a [Joint],
+    interfaces: &'a [InterfaceOperator],
     make: Make<'a, F>,
     factored: Option<(Vec<bool>, F)>,
     /// The step's loads, if they are affine.
@@ -19,22 +19,26 @@ pub(super) struct LinearEngine<'a, F> {
 
 impl<'a, F> LinearEngine<'a, F> {
     /// With factors made for every set of supports.
-    pub(super) fn new(joints: &'a [Joint], make: Make<'a, F>) -> Self {
-        LinearEngine { joints, make, factored: None, ends: None }
+    pub(super) fn new(interfaces: &'a [InterfaceOperator], make: Make<'a, F>) -> Self {
+        LinearEngine { interfaces, make, factored: None, ends: None }
     }
 }
 
 /// The answer to a load.
 struct Answered {
     solution: NodalSolution,
-    /// Jumps (n, t) of every joint, law point by law point.
+    /// Jumps (n, t) of every interface, law point by law point.
     jumps: Vec<Vec<f64>>,
     measured: Vec<f64>,
 }
 
 impl Answered {
-    fn new(solution: NodalSolution, joints: &[Joint], measures: &[LinearMeasure]) -> Answered {
-        let jumps = joints.iter().map(|joint| joint.jumps(&solution.u)).collect();
+    fn new(
+        solution: NodalSolution,
+        interfaces: &[InterfaceOperator],
+        measures: &[LinearMeasure],
+    ) -> Answered {
+        let jumps = interfaces.iter().map(|interface| interface.jumps(&solution.u)).collect();
         let measured = measures.iter().map(|measure| measure.of(&solution)).collect();
         Answered { solution, jumps, measured }
     }
@@ -54,28 +58,28 @@ struct RampEnds {
 }
 
 impl RampEnds {
-    /// The equilibrium at a load level, with displacements if it is to be `complete`. Its backward error is the larger of both
+    /// The equilibrium at a load factor, with displacements if it is to be `complete`. Its backward error is the larger of both
     /// ends', relative to what both carry: |r| ≤ error · ((1 − λ) (|A| |u₀| + |f₀|) + λ (|A| |u₁| + |f₁|)), and the rounding
     /// of the sum.
     fn at(
         &mut self,
         factored: &impl Factored,
-        joints: &[Joint],
-        level: f64,
+        interfaces: &[InterfaceOperator],
+        load_factor: f64,
         complete: bool,
     ) -> Option<Converged> {
-        let needed = if level == 1.0 { 1..2 } else { 0..2 };
+        let needed = if load_factor == 1.0 { 1..2 } else { 0..2 };
         let missing: Vec<usize> = needed.filter(|&end| self.answers[end].is_none()).collect();
         let load = |&end: &usize| (&self.ramp.force[end][..], &self.ramp.prescribed[end][..]);
         let solved = factored.refined_all(&missing.iter().map(load).collect::<Vec<_>>());
         for (end, solution) in missing.into_iter().zip(solved) {
-            self.answers[end] = Some(Answered::new(solution, joints, &self.measures));
+            self.answers[end] = Some(Answered::new(solution, interfaces, &self.measures));
         }
         let [start, end] = &self.answers;
         let end = end.as_ref()?;
-        let start = if level == 1.0 { end } else { start.as_ref()? };
+        let start = if load_factor == 1.0 { end } else { start.as_ref()? };
         let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| a + level * (b - a)).collect()
+            a.iter().zip(b).map(|(a, b)| a + load_factor * (b - a)).collect()
         };
         let (a, b) = (&start.solution, &end.solution);
         let backward_error = a.backward_error.max(b.backward_error);
@@ -85,7 +89,7 @@ impl RampEnds {
             backward_error,
         };
         let jumps = start.jumps.iter().zip(&end.jumps).map(|(a, b)| between(a, b)).collect();
-        let ledger = Ledger::new(level, &between(&start.measured, &end.measured));
+        let ledger = Ledger::new(load_factor, &between(&start.measured, &end.measured));
         Some(found(complete.then(solution), backward_error, jumps, ledger))
     }
 }
@@ -97,15 +101,15 @@ fn found(
     jumps: Vec<Vec<f64>>,
     ledger: Option<Ledger>,
 ) -> Converged {
-    let answer = |(joint, jumps): (usize, Vec<f64>)| {
+    let answer = |(interface, jumps): (usize, Vec<f64>)| {
         let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-        InterfaceResponse { joint, jumps, memory: Vec::new() } // an elastic joint remembers nothing
+        InterfaceResponse { interface, jumps, memory: Vec::new() } // an elastic interface remembers nothing
     };
-    let joints = jumps.into_iter().enumerate().map(answer).collect();
+    let interfaces = jumps.into_iter().enumerate().map(answer).collect();
     Converged {
         solution,
         ledger,
-        joints,
+        interfaces,
         released: 0.0,
         bend: 0.0,
         iterations: 0,
@@ -118,13 +122,13 @@ fn found(
 const UNUSABLE: f64 = 1e-6;
 
 impl<F: Factored> Engine for LinearEngine<'_, F> {
-    fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
-        if self.factored.as_ref().is_some_and(|(of, _)| of == held) {
+    fn support(&mut self, constrained: &[bool]) -> Result<bool, NotPositiveDefinite> {
+        if self.factored.as_ref().is_some_and(|(of, _)| of == constrained) {
             return Ok(false);
         }
         (self.factored, self.ends) = (None, None); // two factors at a time would not fit
-        let (factored, anew) = (self.make)(held)?;
-        self.factored = Some((held.to_vec(), factored));
+        let (factored, anew) = (self.make)(constrained)?;
+        self.factored = Some((constrained.to_vec(), factored));
         Ok(anew)
     }
 
@@ -147,14 +151,16 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
     ) -> Result<Converged, Failure> {
         let Some((_, factored)) = &self.factored else { return Err(Failure::Unusable(f64::INFINITY)) };
         let usable = |found: &Converged| found.residuals[0] <= UNUSABLE;
-        let between =
-            self.ends.as_mut().and_then(|ends| ends.at(factored, self.joints, load.level, complete));
+        let between = self
+            .ends
+            .as_mut()
+            .and_then(|ends| ends.at(factored, self.interfaces, load.load_factor, complete));
         if let Some(found) = between.filter(usable) {
             return Ok(found);
         }
         let LoadForces { loaded, prescribed, .. } = load.forces();
         let solution = factored.refined(loaded, prescribed);
-        let Answered { solution, jumps, .. } = Answered::new(solution, self.joints, &[]);
+        let Answered { solution, jumps, .. } = Answered::new(solution, self.interfaces, &[]);
         let backward_error = solution.backward_error;
         let found = found(Some(solution), backward_error, jumps, None);
         if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
@@ -212,7 +218,7 @@ mod tests {
     struct Spring(Cell<usize>);
 
     impl Factored for Spring {
-        fn held(&self) -> &[bool] {
+        fn constrained(&self) -> &[bool] {
             &[false]
         }
 
@@ -236,15 +242,15 @@ mod tests {
     #[test]
     fn a_ramp_takes_two_solves_and_a_single_increment_one() {
         for (increments, solves) in [(1, 1), (2, 2), (51, 2)] {
-            let spring = Spring::default();
+            let base_spring = Spring::default();
             let ramp = Ramp { force: [vec![1.0], vec![3.0]], prescribed: [vec![0.0], vec![0.0]] };
             let mut ends = RampEnds { ramp, measures: Vec::new(), answers: [None, None] };
             for k in 1..=increments {
-                let level = k as f64 / increments as f64;
-                let found = ends.at(&spring, &[], level, true).unwrap();
-                assert_eq!(found.solution.unwrap().u, [1.0 + level * 2.0]);
+                let load_factor = k as f64 / increments as f64;
+                let found = ends.at(&base_spring, &[], load_factor, true).unwrap();
+                assert_eq!(found.solution.unwrap().u, [1.0 + load_factor * 2.0]);
             }
-            assert_eq!(spring.0.get(), solves, "{increments} increments");
+            assert_eq!(base_spring.0.get(), solves, "{increments} increments");
         }
     }
 }

@@ -78,26 +78,26 @@ pub(in crate::history) struct PathSearch<'a> {
     pub(in crate::history) ramp: &'a Ramp,
     /// Energy to dissipate; none: as far as the predicted change of the jumps.
     pub(in crate::history) amount: Option<f64>,
-    /// The last change of unknowns and load level is repeated this many times; zero: off the tangent.
+    /// The last change of unknowns and load factor is repeated this many times; zero: off the tangent.
     pub(in crate::history) ahead: f64,
-    /// The last change of the load level; off the tangent the first one.
+    /// The last change of the load factor; off the tangent the first one.
     pub(in crate::history) last: f64,
 }
 
 /// Finds equilibria under one set of supports after the other.
 pub(in crate::history) trait Engine {
     /// Makes ready for a set of supports. True if something was factored.
-    fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite>;
+    fn support(&mut self, constrained: &[bool]) -> Result<bool, NotPositiveDefinite>;
 
-    /// Prepares a step whose loads are affine in the load level, so that increments can do without displacements.
+    /// Prepares a step whose loads are affine in the load factor, so that increments can do without displacements.
     fn prepare(&mut self, ramp: Option<&Ramp>, measures: &[LinearMeasure]);
 
-    /// True if the jumps of all joints are found without displacements, those of elastic ones too.
+    /// True if the jumps of all interfaces are found without displacements, those of elastic ones too.
     fn finds_all_jumps(&self) -> bool {
         false
     }
 
-    /// Equilibrium at a load level, sought from the last accepted one and beyond it. Displacements are recovered if they are
+    /// Equilibrium at a load factor, sought from the last accepted one and beyond it. Displacements are recovered if they are
     /// asked for (`complete`) or needed.
     fn solve(
         &mut self,
@@ -107,7 +107,7 @@ pub(in crate::history) trait Engine {
         complete: bool,
     ) -> Result<Converged, Failure>;
 
-    /// A backward Euler step of joints with a viscosity, under a load, from the last accepted state.
+    /// A backward Euler step of interfaces with a viscosity, under a load, from the last accepted state.
     fn creep(
         &mut self,
         state: &ModelState,
@@ -131,11 +131,11 @@ pub(in crate::history) trait Engine {
     /// Relative out-of-balance force of the last accepted state under a load, without any viscosity.
     fn imbalance(&self, state: &ModelState, load: &StepLoad) -> f64;
 
-    /// Equilibrium further along a path from the last accepted one at `level`, wherever its load level is.
+    /// Equilibrium further along a path from the last accepted one at `level`, wherever its load factor is.
     fn follow(
         &mut self,
         state: &ModelState,
-        level: f64,
+        load_factor: f64,
         path: &PathSearch,
     ) -> Result<(Converged, f64), Failure>;
 
@@ -177,7 +177,7 @@ pub(in crate::history) struct Estimate {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::history) struct Way<'a> {
     pub(in crate::history) middle: &'a StepLoad<'a>,
-    pub(in crate::history) step: Option<&'a [StepLoad<'a>; 2]>,
+    pub(in crate::history) ends: Option<&'a [StepLoad<'a>; 2]>,
 }
 
 /// Factors for a set of supports; true if something was factored anew.

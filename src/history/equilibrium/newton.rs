@@ -118,7 +118,9 @@ impl<F: Form> NewtonEngine<'_, F> {
         self.search.trusted &= passes <= 1;
         self.search.first = false;
         let ledger = match self.measured {
-            true => Ledger::new(load.level, &form.measured(load.level, &iterate.x, &iterate.forces)),
+            true => {
+                Ledger::new(load.load_factor, &form.measured(load.load_factor, &iterate.x, &iterate.forces))
+            }
             false => None,
         };
         Ok(self.found(solution, ledger, residuals, laws, iterate))
@@ -136,17 +138,18 @@ impl<F: Form> NewtonEngine<'_, F> {
         let active = self.form.as_ref().map_or(&[][..], |(_, form, _)| form.active());
         let (viscous, [released, bend]) = viscosity::account(laws, active, &self.search.viscous, &iterate);
         self.found = (iterate.x, iterate.forces, viscous);
-        let joints = active.iter().zip(iterate.jumps).zip(iterate.memory).map(|((&joint, jumps), memory)| {
-            let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
-            InterfaceResponse { joint, jumps, memory }
-        });
+        let interfaces =
+            active.iter().zip(iterate.jumps).zip(iterate.memory).map(|((&interface, jumps), memory)| {
+                let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                InterfaceResponse { interface, jumps, memory }
+            });
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
         Converged {
             solution,
             ledger,
-            joints: joints.collect(),
+            interfaces: interfaces.collect(),
             released,
             bend,
             iterations,
@@ -157,14 +160,14 @@ impl<F: Form> NewtonEngine<'_, F> {
 }
 
 impl<F: Form> Engine for NewtonEngine<'_, F> {
-    fn support(&mut self, held: &[bool]) -> Result<bool, NotPositiveDefinite> {
-        if self.form.as_ref().is_some_and(|(of, ..)| of == held) {
+    fn support(&mut self, constrained: &[bool]) -> Result<bool, NotPositiveDefinite> {
+        if self.form.as_ref().is_some_and(|(of, ..)| of == constrained) {
             return Ok(false);
         }
         self.form = None;
-        let (form, anew) = (self.make)(held)?;
+        let (form, anew) = (self.make)(constrained)?;
         let newton = Newton::new(&form);
-        self.form = Some((held.to_vec(), form, newton));
+        self.form = Some((constrained.to_vec(), form, newton));
         Ok(anew)
     }
 
@@ -205,7 +208,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             old,
             viscosity: Some(viscosity),
             lags: self.search.lags && may_lag(self.problem, viscosity),
-            held: None,
+            intact: None,
         };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
@@ -254,18 +257,18 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     fn follow(
         &mut self,
         state: &ModelState,
-        level: f64,
+        load_factor: f64,
         path: &PathSearch,
     ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         let laws = Laws::alone(self.problem, &state.snapshot.states);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
-        let from = PathPoint { x: self.search.unknowns.clone(), level };
+        let from = PathPoint { x: self.search.unknowns.clone(), load_factor };
         let start = if path.ahead > 0.0 {
             let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
             let x = self.search.unknowns.iter().zip(&self.search.before).map(extrapolate).collect();
-            Ok(PathPoint { x, level: level + path.ahead * path.last })
+            Ok(PathPoint { x, load_factor: load_factor + path.ahead * path.last })
         } else {
             match path.amount {
                 Some(amount) => leave(newton, form, &laws, &from, &load, amount, self.settings),
@@ -278,14 +281,14 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             None => Constraint::between(form, &from.x, &start.x),
         };
         let followed = newton.follow(form, &laws, start, &load, &constraint, self.settings);
-        let (iterate, level) = followed.map_err(Failure::Unconverged)?;
+        let (iterate, load_factor) = followed.map_err(Failure::Unconverged)?;
         let at = |ends: &[Vec<f64>; 2]| -> Vec<f64> {
-            ends[0].iter().zip(&ends[1]).map(|(start, end)| start + level * (end - start)).collect()
+            ends[0].iter().zip(&ends[1]).map(|(start, end)| start + load_factor * (end - start)).collect()
         };
         let (loaded, prescribed) = (at(&path.ramp.force), at(&path.ramp.prescribed));
         let solution = form.recover(&iterate.x, &iterate.forces, &loaded, &prescribed);
         let found = self.found(Some(solution), None, iterate.residuals.clone(), &laws, iterate);
-        Ok((found, level))
+        Ok((found, load_factor))
     }
 
     fn recover(&self, load: &StepLoad) -> Option<NodalSolution> {

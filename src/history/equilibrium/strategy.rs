@@ -1,4 +1,4 @@
-//! How a scene is solved: which joints have unknowns of their own, and which form of the equations takes less work.
+//! How a scene is solved: which interfaces have unknowns of their own, and which form of the equations takes less work.
 
 use std::collections::BTreeSet;
 
@@ -20,11 +20,11 @@ const SPARSE: f64 = 3.0;
 /// Multiplications and additions that a run takes, estimated before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Operations {
-    /// On the jumps of the joints.
+    /// On the jumps of the interfaces.
     pub condensed: f64,
     /// On these and the motions of the bodies, by blocks.
     pub blocks: f64,
-    /// On all displacements, the joints' own share left out.
+    /// On all displacements, the interfaces' own share left out.
     pub plain: f64,
 }
 
@@ -36,7 +36,7 @@ pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
 
 /// Joints whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear
 /// and its displacements will do.
-pub(in crate::history) fn asked(problem: &Problem) -> Vec<usize> {
+pub(in crate::history) fn condensed_interfaces(problem: &Problem) -> Vec<usize> {
     let active = active(problem);
     match problem.solution.strategy {
         Strategy::Plain => return active,
@@ -47,42 +47,42 @@ pub(in crate::history) fn asked(problem: &Problem) -> Vec<usize> {
     (0..problem.laws.len()).filter(|k| problem.stiff[*k] || active.contains(k)).collect()
 }
 
-/// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic joints need their jumps
+/// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic interfaces need their jumps
 /// as unknowns.
 pub(in crate::history) fn choose(
     problem: &Problem,
     continuum: &Continuum,
-    asked: &[usize],
+    condensed_interfaces: &[usize],
     available: Option<u64>,
 ) -> Result<(Method, Operations)> {
     let (model, dofs) = (&problem.model, problem.model.dofs());
-    let border = continuum.border() as f64;
-    let coefficients = asked.iter().map(|&k| model.joints[k].size()).sum::<usize>() as f64;
-    let changes = problem.stages.windows(2).filter(|pair| pair[0].held != pair[1].held).count();
+    let separator = continuum.separator() as f64;
+    let coefficients = condensed_interfaces.iter().map(|&k| model.interfaces[k].size()).sum::<usize>() as f64;
+    let changes = problem.steps.windows(2).filter(|pair| pair[0].constrained != pair[1].constrained).count();
     let sets = (1 + changes) as f64;
-    let increments = problem.stages.iter().map(|stage| stage.increments).sum::<usize>() as f64;
+    let increments = problem.steps.iter().map(|step| step.increments).sum::<usize>() as f64;
     let iterations = if active(problem).is_empty() { sets } else { ITERATIONS * increments };
-    let base = border.powi(3) / 3.0 + border * coefficients * (border + coefficients);
-    let bodies = |b: usize| {
-        let border = continuum.border_of(b).len() as f64;
-        2.3 * border.powi(3) // its factor, and flexibilities of as many unknowns
+    let base = separator.powi(3) / 3.0 + separator * coefficients * (separator + coefficients);
+    let subdomains = |b: usize| {
+        let separator = continuum.separator_of(b).len() as f64;
+        2.3 * separator.powi(3) // its factor, and flexibilities of as many unknowns
     };
     let estimate = Operations {
         condensed: continuum.operations()
             + sets * (base + 2.0 * coefficients.powi(3))
             + iterations * 2.0 / 3.0 * coefficients.powi(3),
         blocks: continuum.operations()
-            + sets * (0..continuum.bodies()).map(bodies).sum::<f64>()
+            + sets * (0..continuum.subdomains()).map(subdomains).sum::<f64>()
             + iterations * SPARSE * by_blocks(problem),
         plain: iterations * 2.0 * continuum.operations(),
     };
-    let dense = continuum.border().pow(2) + 5 * (coefficients as usize).pow(2);
+    let dense = continuum.separator().pow(2) + 5 * (coefficients as usize).pow(2);
     let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
     let fits = available.is_none_or(|available| needed <= available);
     let method = match problem.solution.strategy {
-        Strategy::Auto if asked.is_empty() => Method::Condensed,
+        Strategy::Auto if condensed_interfaces.is_empty() => Method::Condensed,
         Strategy::Auto => {
-            let stiff = asked.iter().any(|&k| problem.stiff[k]);
+            let stiff = condensed_interfaces.iter().any(|&k| problem.stiff[k]);
             let condensed = if fits { estimate.condensed } else { f64::INFINITY };
             let plain = if stiff { f64::INFINITY } else { estimate.plain };
             match estimate.blocks {
@@ -96,27 +96,28 @@ pub(in crate::history) fn choose(
         Strategy::Plain => Method::Plain,
     };
     if method == Method::Condensed {
-        memory::refuse(dofs, continuum.entries(), needed, available)?;
+        memory::check_fits(dofs, continuum.entries(), needed, available)?;
     }
     Ok((method, estimate))
 }
 
-/// Work of an LU of the joints' unknowns, joint by joint in the order of least degree: those of one body are all connected.
+/// Work of an LU of the interfaces' unknowns, interface by interface in the order of least degree: those of one body are all connected.
 fn by_blocks(problem: &Problem) -> f64 {
-    let joints = &problem.model.joints;
-    let mut beside: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); joints.len()];
-    for body in 0..problem.model.bodies.len() {
-        let of: Vec<usize> = (0..joints.len()).filter(|&k| joints[k].bodies.contains(&body)).collect();
+    let interfaces = &problem.model.interfaces;
+    let mut beside: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); interfaces.len()];
+    for subdomain in 0..problem.model.subdomains.len() {
+        let of: Vec<usize> =
+            (0..interfaces.len()).filter(|&k| interfaces[k].subdomains.contains(&subdomain)).collect();
         of.iter().for_each(|&k| beside[k].extend(of.iter().filter(|&&other| other != k)));
     }
-    let front = |set: &BTreeSet<usize>| set.iter().map(|&k| joints[k].size()).sum::<usize>() as f64;
-    let (mut left, mut work): (Vec<usize>, f64) = ((0..joints.len()).collect(), 0.0);
+    let front = |set: &BTreeSet<usize>| set.iter().map(|&k| interfaces[k].size()).sum::<usize>() as f64;
+    let (mut left, mut work): (Vec<usize>, f64) = ((0..interfaces.len()).collect(), 0.0);
     while let Some(at) = (0..left.len()).min_by(|&a, &b| {
-        front(&beside[left[a]]).total_cmp(&front(&beside[left[b]])) // ties in the order of the joints
+        front(&beside[left[a]]).total_cmp(&front(&beside[left[b]])) // ties in the order of the interfaces
     }) {
         let k = left.remove(at);
         let neighbours = std::mem::take(&mut beside[k]);
-        let (own, rest) = (joints[k].size() as f64, front(&neighbours));
+        let (own, rest) = (interfaces[k].size() as f64, front(&neighbours));
         work += own.powi(3) * 2.0 / 3.0 + 2.0 * own * own * rest + 2.0 * own * rest * rest;
         for &a in &neighbours {
             beside[a].remove(&k);

@@ -29,7 +29,7 @@ pub(super) struct ViewMut<'a, F> {
 /// b of a load on a form whose loads are prepared, or not.
 pub(super) fn target(form: &impl Form, prepared: bool, load: &StepLoad) -> Result<Vec<f64>, Failure> {
     let target = match prepared {
-        true => form.prepared(load.level),
+        true => form.prepared(load.load_factor),
         false => {
             let LoadForces { loaded, prescribed, .. } = load.forces();
             form.target(loaded, prescribed)

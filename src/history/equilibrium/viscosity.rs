@@ -5,7 +5,7 @@ use crate::history::converged::PointResponse;
 use crate::solver::Iterate;
 
 /// Viscous tractions of what was found, and the work that they do on the way there from those before: that of all tractions
-/// along a straight way, less that of the laws' own by Simpson's rule. And the bend of the tractions of joints that
+/// along a straight way, less that of the laws' own by Simpson's rule. And the bend of the tractions of interfaces that
 /// dilate, √(Σ w |Δt|²).
 pub(super) fn account(
     laws: &Laws,
@@ -20,7 +20,7 @@ pub(super) fn account(
     let problem = laws.problem;
     let (mut released, mut bent) = (0.0, 0.0);
     for (a, &k) in active.iter().enumerate() {
-        let points = &problem.model.joints[k].coupling.points;
+        let points = &problem.model.interfaces[k].coupling.points;
         let dilates = problem.laws[k].0.dilates();
         let mut now = Vec::with_capacity(2 * points.len());
         for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {

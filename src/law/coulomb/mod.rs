@@ -22,7 +22,7 @@ use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::admissible::{Inadmissible, not_negative, positive, refuse};
+use super::admissible::{Inadmissible, error_at, not_negative, positive};
 use super::{Response, State};
 
 /// Parameters of the Coulomb law.
@@ -59,7 +59,7 @@ impl Coulomb {
         not_negative("cohesion", self.cohesion)?;
         not_negative("dilatancy", self.dilatancy)?;
         if self.dilatancy > self.friction_coefficient {
-            return refuse(
+            return error_at(
                 "dilatancy",
                 format!("dilatancy {} > friction_coefficient {}", self.dilatancy, self.friction_coefficient),
                 "sliding would create energy; lower the dilatancy or raise the friction",

@@ -7,7 +7,7 @@
 //! K_T > |σ| c₀ (tanφ₀ − tanφ_r) e^{|α|} / G_II                        the same for the loss of friction
 //! ```
 
-use super::super::admissible::{Inadmissible, not_negative, positive, refuse};
+use super::super::admissible::{Inadmissible, error_at, not_negative, positive};
 use super::{Cracking, Surface};
 use crate::error::{Code, Warning};
 
@@ -39,8 +39,8 @@ impl Cracking {
         }
         for (key, alpha) in self.exponents() {
             if alpha.is_nan() || alpha.abs() > LARGEST_EXPONENT {
-                let cure = format!("it must lie between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}");
-                return refuse(key, format!("{key} = {alpha} is not a shape exponent"), cure);
+                let help = format!("it must lie between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}");
+                return error_at(key, format!("{key} = {alpha} is not a shape exponent"), help);
             }
         }
         self.check_residual_friction()?;
@@ -68,8 +68,8 @@ impl Cracking {
                 "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
                  chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in shear"
             );
-            let cure = format!("{least:.2e} or more is safer");
-            warnings.push(Warning::new(Code::LeapInShear, what, cure));
+            let help = format!("{least:.2e} or more is safer");
+            warnings.push(Warning::new(Code::LeapInShear, what, help));
         }
         let friction_loss = self.tan_friction - self.tan_friction_residual.unwrap_or(self.tan_friction);
         let steepest = c * friction_loss * self.alpha_tan_friction.abs().exp();
@@ -80,8 +80,8 @@ impl Cracking {
                  tan_friction_residual) * e^|alpha|) = {highest:.3e} the loss of friction alone may make the traction \
                  leap in shear"
             );
-            let cure = "raise tangential_stiffness if the joint will carry that";
-            warnings.push(Warning::new(Code::LeapByFriction, what, cure));
+            let help = "raise tangential_stiffness if the joint will carry that";
+            warnings.push(Warning::new(Code::LeapByFriction, what, help));
         }
         warnings
     }
@@ -109,7 +109,7 @@ impl Cracking {
         let Some(residual) = self.tan_friction_residual else { return Ok(()) };
         positive("tan_friction_residual", residual)?;
         if residual > self.tan_friction {
-            return refuse(
+            return error_at(
                 "tan_friction_residual",
                 format!("tan_friction_residual = {residual} > tan_friction = {}", self.tan_friction),
                 "friction cannot grow with damage; give at most tan_friction, or leave it out",
@@ -122,7 +122,7 @@ impl Cracking {
     fn check_vertex(&self) -> Result<(), Inadmissible> {
         let (chi, c, t) = (self.tensile_strength, self.cohesion, self.tan_friction);
         if chi * t > c * (1.0 + ROUNDING) {
-            return refuse(
+            return error_at(
                 "cohesion",
                 format!("cohesion = {c} < tensile_strength * tan_friction = {chi} * {t} = {}", chi * t),
                 "raise the cohesion or lower the tensile strength: the vertex of the hyperbola lies outside",
@@ -141,7 +141,7 @@ impl Cracking {
                 let w = energy * e * x / ((1.0 - x) + e * x);
                 let now = surface.at(w);
                 if now.c - now.chi * now.t < -ROUNDING * c {
-                    return refuse(
+                    return error_at(
                         "fracture_energy_iia",
                         format!(
                             "after the work {w:.3e} is spent, cohesion = {:.4e} < tensile_strength * tan_friction = \
@@ -166,7 +166,7 @@ impl Cracking {
         if self.normal_stiffness > least {
             return Ok(());
         }
-        refuse(
+        error_at(
             "normal_stiffness",
             format!(
                 "normal_stiffness = {:e} <= tensile_strength^2 e^|alpha| / fracture_energy_i = {least:e}: pure \

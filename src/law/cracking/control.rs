@@ -31,16 +31,16 @@ const GROW: f64 = 5.0;
 const SHORTEST: f64 = 1e-10;
 /// Change of traction in a sub-step across an event, per ε, of the strength.
 const EVENT: f64 = 0.3;
-/// Sub-steps tried before the way counts as a leap, and ten times fewer per 1/√ε.
+/// Sub-steps tried before the way counts as a snap, and ten times fewer per 1/√ε.
 const TRIES: usize = 1000;
 /// A straight way meets a handful of events; beyond this number they are rounding.
 const EVENTS: usize = 20;
 /// Part of an energy that counts as all of it: W approaches its limit without end.
 const USED_UP: f64 = 1.0 - 1e-9;
-/// A change of traction within the shortest sub-step that counts as a leap, of the strength.
-const LEAP: f64 = 1e-3;
-/// So many shortest sub-steps may miss the bound before the whole way counts as a leap.
-const LEAPS: usize = 50;
+/// A change of traction within the shortest sub-step that counts as a snap, of the strength.
+const SNAP: f64 = 1e-3;
+/// So many shortest sub-steps may miss the bound before the whole way counts as a snap.
+const SNAPS: usize = 50;
 
 /// A sub-step done in halves.
 pub(super) struct Double {
@@ -62,7 +62,7 @@ pub(super) struct ErrorControl {
     /// Events met so far.
     events: usize,
     /// Shortest sub-steps that still missed the bound.
-    leaps: usize,
+    snaps: usize,
 }
 
 impl ErrorControl {
@@ -80,11 +80,11 @@ impl ErrorControl {
             event: None,
             tries_left: TRIES + (TRIES as f64 * 0.1 / tolerance.max(SMALLEST_TOLERANCE).sqrt()) as usize,
             events: 0,
-            leaps: 0,
+            snaps: 0,
         }
     }
 
-    /// The next sub-step, as long as the bound allows; `None` if the traction leaps.
+    /// The next sub-step, as long as the bound allows; `None` if the traction snaps.
     pub fn next(
         &mut self,
         surface: &Surface,
@@ -111,9 +111,9 @@ impl ErrorControl {
             let across = is_across_event(surface, from, &step);
             if length <= self.shortest {
                 (self.length, self.event) = (GROW * length, None);
-                self.leaps += usize::from(ratio > 1.0);
-                let leap = ratio > 1.0 && (misfit > LEAP * surface.scale() || self.leaps > LEAPS);
-                return (!leap).then_some(step);
+                self.snaps += usize::from(ratio > 1.0);
+                let snap = ratio > 1.0 && (misfit > SNAP * surface.scale() || self.snaps > SNAPS);
+                return (!snap).then_some(step);
             }
             if across && change > self.event_bound.max(rounding) && self.events < EVENTS {
                 self.events += usize::from(self.event.is_none());

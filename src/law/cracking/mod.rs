@@ -43,11 +43,11 @@ pub struct Cracking {
     pub normal_stiffness: f64,
     /// Tangential elastic (penalty) stiffness K_T [stress / length].
     pub tangential_stiffness: f64,
-    /// Tensile strength of the sound interface χ₀ [stress].
+    /// Tensile strength of the intact interface χ₀ [stress].
     pub tensile_strength: f64,
-    /// Apparent cohesion of the sound interface c₀ [stress], at least χ₀ tanφ₀.
+    /// Apparent cohesion of the intact interface c₀ [stress], at least χ₀ tanφ₀.
     pub cohesion: f64,
-    /// Tangent of the friction angle of the sound interface tanφ₀ [-].
+    /// Tangent of the friction angle of the intact interface tanφ₀ [-].
     pub tan_friction: f64,
     /// Tangent of the residual friction angle tanφ_r [-]. Default: no loss.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -82,7 +82,7 @@ impl Cracking {
         Strength { tensile_strength: now.chi, cohesion: now.c, tan_friction: now.t }
     }
 
-    /// The hyperbola F of the sound interface at a traction (n, t) [stress]; positive is outside.
+    /// The hyperbola F of the intact interface at a traction (n, t) [stress]; positive is outside.
     pub fn excess(&self, traction: Vector2<f64>) -> f64 {
         self.excess_at(traction, 0.0)
     }
@@ -97,10 +97,10 @@ impl Cracking {
         &self,
         jump: Vector2<f64>,
         old: &State,
-        stepping: Integration,
+        integration: Integration,
     ) -> Result<Response, Unresolved> {
         let surface = Surface::new(self);
-        match stepping {
+        match integration {
             Integration::Tolerance(tolerance) => {
                 march(&surface, jump, old, Lengths::Controlled(tolerance, None))
             }

@@ -2,7 +2,7 @@
 //!
 //! Under error control the way is elastic up to the onset of cracking, found exactly, then runs in sub-steps of
 //! absolute length, the last one cut at the end of the increment. Lengths depend on what lies behind, never on where
-//! the increment ends, so the traction does not leap while a global Newton iteration moves that end.
+//! the increment ends, so the traction does not snap while a global Newton iteration moves that end.
 
 use nalgebra::{Matrix2, Vector2};
 

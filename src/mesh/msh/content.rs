@@ -6,12 +6,12 @@ use crate::shape::Shape;
 #[derive(Debug)]
 pub(in crate::mesh) struct MeshFault {
     pub(in crate::mesh) what: String,
-    pub(in crate::mesh) cure: String,
+    pub(in crate::mesh) help: String,
 }
 
 /// A file that gmsh did not write like this.
 pub(in crate::mesh) fn damaged(what: impl Into<String>) -> MeshFault {
-    MeshFault { what: what.into(), cure: "the file is damaged: write it again (gmsh -format msh41)".into() }
+    MeshFault { what: what.into(), help: "the file is damaged: write it again (gmsh -format msh41)".into() }
 }
 
 /// The content of a file. Elements refer to nodes by number.
@@ -67,10 +67,10 @@ impl Declared {
     /// The refusal of a group that holds nothing.
     pub(in crate::mesh) fn empty(&self) -> MeshFault {
         let kind = KINDS[self.dim];
-        let cure = match self.dim {
+        let help = match self.dim {
             3 => "a plane mesh has physical points, curves and surfaces".into(),
             _ => format!("a physical {kind} lists {kind}s that exist and are meshed"),
         };
-        MeshFault { what: format!("physical {kind} \"{}\" has no elements", self.name), cure }
+        MeshFault { what: format!("physical {kind} \"{}\" has no elements", self.name), help }
     }
 }

@@ -26,7 +26,7 @@ impl ElementKind {
             3 => ElementKind::Cell(Shape::Quadrilateral4),
             16 => ElementKind::Cell(Shape::Quadrilateral8),
             10 => ElementKind::Cell(Shape::Quadrilateral9),
-            _ => return Err(refuse(number)),
+            _ => return Err(error_at(number)),
         })
     }
 
@@ -48,7 +48,7 @@ impl ElementKind {
     }
 }
 
-fn refuse(number: i32) -> MeshFault {
+fn error_at(number: i32) -> MeshFault {
     let (name, solid) = match number {
         4 => ("tetrahedra", true),
         5 => ("hexahedra", true),
@@ -74,10 +74,10 @@ fn refuse(number: i32) -> MeshFault {
         _ => {
             return MeshFault {
                 what: format!("has elements of gmsh type {number}"),
-                cure: "a plane mesh has triangles and quadrilaterals of order 1 or 2".into(),
+                help: "a plane mesh has triangles and quadrilaterals of order 1 or 2".into(),
             };
         }
     };
-    let cure = if solid { "mesh the surfaces only (gmsh -2)" } else { "use Mesh.ElementOrder = 1 or 2" };
-    MeshFault { what: format!("has {name}"), cure: cure.into() }
+    let help = if solid { "mesh the surfaces only (gmsh -2)" } else { "use Mesh.ElementOrder = 1 or 2" };
+    MeshFault { what: format!("has {name}"), help: help.into() }
 }

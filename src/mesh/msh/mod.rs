@@ -47,22 +47,23 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, MeshFault> {
             b"PartitionedEntities" => {
                 return Err(MeshFault {
                     what: "is partitioned".into(),
-                    cure: "save it without partitions".into(),
+                    help: "save it without partitions".into(),
                 });
             }
             _ => {}
         }
-        let body = if matches!(name, b"Nodes" | b"Elements") {
+        let subdomain = if matches!(name, b"Nodes" | b"Elements") {
             cursor.at_end(name).then_some(&[][..])
         } else {
             cursor.until_end(name)
         };
-        let body =
-            body.ok_or_else(|| damaged(format!("has ${title} without $End{title} where it should be")))?;
+        let subdomain = subdomain
+            .ok_or_else(|| damaged(format!("has ${title} without $End{title} where it should be")))?;
         match name {
-            b"PhysicalNames" => content.declared = names::read(body)?,
+            b"PhysicalNames" => content.declared = names::read(subdomain)?,
             b"Entities" => {
-                let parsed = decoder.entities(body).ok_or_else(|| damaged("$Entities cannot be read"))?;
+                let parsed =
+                    decoder.entities(subdomain).ok_or_else(|| damaged("$Entities cannot be read"))?;
                 entities = Entities::new(parsed)?;
             }
             _ => {}
@@ -78,7 +79,7 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, MeshFault> {
             Some(surface) => surface.empty(),
             None => MeshFault {
                 what: "has no triangles or quadrilaterals".into(),
-                cure: "give the .geo a Physical Surface that covers the body".into(),
+                help: "give the .geo a Physical Surface that covers the body".into(),
             },
         });
     }
@@ -87,29 +88,29 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, MeshFault> {
 
 /// Checks the first lines; the position is then behind them.
 fn header(bytes: &[u8]) -> Result<(Cursor<'_>, Encoding), MeshFault> {
-    let cure = "write MSH 4.1 (gmsh -format msh41)";
-    let refuse = |what: &str| MeshFault { what: what.into(), cure: cure.into() };
-    let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| refuse("is not an MSH file"))?;
+    let help = "write MSH 4.1 (gmsh -format msh41)";
+    let error_at = |what: &str| MeshFault { what: what.into(), help: help.into() };
+    let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| error_at("is not an MSH file"))?;
     let mut lines = rest.splitn(3, |&b| b == b'\n').skip(1);
     let line = lines.next().and_then(|line| std::str::from_utf8(line).ok()).unwrap_or("");
-    let body = lines.next().ok_or_else(|| damaged("ends in its first lines"))?;
+    let subdomain = lines.next().ok_or_else(|| damaged("ends in its first lines"))?;
     let words: Vec<&str> = line.split_whitespace().collect();
     let &[version, mode, width] = words.as_slice() else {
         return Err(damaged(format!("\"{}\" is not an MSH format", line.trim())));
     };
     if version != "4.1" {
-        return Err(refuse(&format!("is MSH {version}")));
+        return Err(error_at(&format!("is MSH {version}")));
     }
     if width != "8" {
-        return Err(refuse(&format!("has counts of {width} bytes instead of 8")));
+        return Err(error_at(&format!("has counts of {width} bytes instead of 8")));
     }
-    let encoding = match (mode, body.first_chunk::<4>()) {
+    let encoding = match (mode, subdomain.first_chunk::<4>()) {
         ("0", _) => Encoding::Text,
         ("1", Some(&one)) if i32::from_le_bytes(one) == 1 => Encoding::Little,
         ("1", Some(&one)) if i32::from_be_bytes(one) == 1 => Encoding::Big,
         _ => return Err(damaged("is neither text nor binary")),
     };
-    let skipped = bytes.len() - body.len() + if encoding == Encoding::Text { 0 } else { 4 };
+    let skipped = bytes.len() - subdomain.len() + if encoding == Encoding::Text { 0 } else { 4 };
     let mut cursor = Cursor::new(bytes, skipped, encoding);
     if !cursor.at_end(b"MeshFormat") {
         return Err(damaged("has $MeshFormat without $EndMeshFormat"));

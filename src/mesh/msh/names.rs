@@ -6,7 +6,7 @@ use super::content::{Declared, MeshFault, damaged};
 pub(super) fn read(content: &[u8]) -> Result<Vec<Declared>, MeshFault> {
     let text = std::str::from_utf8(content).map_err(|_| MeshFault {
         what: "a physical name is not UTF-8 text".into(),
-        cure: "save the .geo as UTF-8".into(),
+        help: "save the .geo as UTF-8".into(),
     })?;
     let mut lines = text.lines().filter(|line| !line.trim().is_empty());
     let claimed = lines.next().and_then(|line| line.trim().parse::<u64>().ok());

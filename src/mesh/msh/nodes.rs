@@ -38,7 +38,7 @@ pub(super) fn read(
         if parametric != 0 {
             return Err(MeshFault {
                 what: "has nodes with parametric coordinates".into(),
-                cure: "set Mesh.SaveParametric = 0".into(),
+                help: "set Mesh.SaveParametric = 0".into(),
             });
         }
         let count = cursor.size().ok_or_else(cut)?;

@@ -24,7 +24,7 @@ impl Tags {
         if u32::try_from(tags.len()).is_err() || tags.len() as u64 >= u64::from(ABSENT) {
             return Err(MeshFault {
                 what: format!("has {} nodes", tags.len()),
-                cure: "use a coarser mesh".into(),
+                help: "use a coarser mesh".into(),
             });
         }
         let numbered = tags.iter().zip(0_u32..);

@@ -10,16 +10,16 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// A motion that supports and hinges resist by less than this part of a node's is free.
 const FREE: f64 = 1e-12;
-/// What a motion must leave on the border when those before it are taken away.
+/// What a motion must leave on the separator when those before it are taken away.
 const SEEN: f64 = 1e-8;
 
-/// Free motions on all dofs of a body, orthonormal on its border (dofs with a place). `pieces`: their nodes where it falls
+/// Free motions on all dofs of a body, orthonormal on its separator (dofs with a place). `pieces`: their nodes where it falls
 /// into several. At most `most` of them.
-pub(super) fn free_motions(
+pub(super) fn free_rigid_modes(
     components: usize,
     pieces: &[Vec<usize>],
     coordinates: &[f64],
-    held: &[bool],
+    constrained: &[bool],
     places: &[Option<u32>],
 ) -> Vec<Vec<f64>> {
     let whole = [(0..coordinates.len() / components).collect()];
@@ -32,7 +32,7 @@ pub(super) fn free_motions(
     }
     of_node.retain(|_, pieces| pieces.len() > 1);
     let chains = chains(pieces.len(), &of_node);
-    chains.iter().flat_map(|chain| of_chain(chain, &pieces, &of_node, held, places)).collect()
+    chains.iter().flat_map(|chain| of_chain(chain, &pieces, &of_node, constrained, places)).collect()
 }
 
 /// Most motions that a body can have.
@@ -99,7 +99,7 @@ fn of_chain(
     chain: &[usize],
     pieces: &[ModalPiece],
     of_node: &BTreeMap<usize, Vec<usize>>,
-    held: &[bool],
+    constrained: &[bool],
     places: &[Option<u32>],
 ) -> Vec<Vec<f64>> {
     let c = pieces[chain[0]].components();
@@ -117,7 +117,7 @@ fn of_chain(
     };
     for (place, &p) in chain.iter().enumerate() {
         for &node in pieces[p].nodes {
-            for d in (0..c).filter(|d| held[c * node + d]) {
+            for d in (0..c).filter(|d| constrained[c * node + d]) {
                 resist(&entries(place, node, d, 1.0).collect::<Vec<_>>());
             }
         }
@@ -132,13 +132,13 @@ fn of_chain(
         }
     }
     let eigen = SymmetricEigen::new(resisted);
-    let on_border = |a: &[f64], b: &[f64]| -> f64 {
-        let border = places.iter().enumerate().filter(|(_, place)| place.is_some());
-        border.map(|(dof, _)| a[dof] * b[dof]).sum()
+    let on_separator = |a: &[f64], b: &[f64]| -> f64 {
+        let separator = places.iter().enumerate().filter(|(_, place)| place.is_some());
+        separator.map(|(dof, _)| a[dof] * b[dof]).sum()
     };
-    let mut motions: Vec<Vec<f64>> = Vec::new();
+    let mut rigid_modes: Vec<Vec<f64>> = Vec::new();
     for k in (0..count).filter(|&k| eigen.eigenvalues[k] <= FREE) {
-        let mut motion = vec![0.0; held.len()];
+        let mut motion = vec![0.0; constrained.len()];
         for (place, &p) in chain.iter().enumerate() {
             for &node in pieces[p].nodes {
                 for d in 0..c {
@@ -147,18 +147,18 @@ fn of_chain(
                 }
             }
         }
-        let before = on_border(&motion, &motion).sqrt();
-        for other in &motions {
-            let share = on_border(&motion, other);
+        let before = on_separator(&motion, &motion).sqrt();
+        for other in &rigid_modes {
+            let share = on_separator(&motion, other);
             motion.iter_mut().zip(other).for_each(|(motion, other)| *motion -= share * other);
         }
-        let length = on_border(&motion, &motion).sqrt();
+        let length = on_separator(&motion, &motion).sqrt();
         if length > SEEN * before {
             motion.iter_mut().for_each(|value| *value /= length);
-            motions.push(motion);
+            rigid_modes.push(motion);
         }
     }
-    motions
+    rigid_modes
 }
 
 #[cfg(test)]
@@ -170,12 +170,12 @@ mod tests {
     fn a_hinge_leaves_a_turn() {
         let pieces = [vec![0, 1, 2], vec![2, 3, 4]];
         let x = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 2.0, -1.0, 3.0];
-        let mut held = [false; 10];
-        (held[0], held[1]) = (true, true);
+        let mut constrained = [false; 10];
+        (constrained[0], constrained[1]) = (true, true);
         let places: Vec<Option<u32>> = (0..10).map(Some).collect();
-        let motions = free_motions(2, &pieces, &x, &held, &places);
-        assert_eq!((motions.len(), most(2, &pieces)), (2, 6));
-        for a in &motions {
+        let rigid_modes = free_rigid_modes(2, &pieces, &x, &constrained, &places);
+        assert_eq!((rigid_modes.len(), most(2, &pieces)), (2, 6));
+        for a in &rigid_modes {
             assert!(a[0].abs() < 1e-12 && a[1].abs() < 1e-12, "the point stays");
             for (p, q) in [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 2)] {
                 let stretch: f64 =
@@ -187,22 +187,22 @@ mod tests {
 
     /// Two separate triangles: one is held at a point, which leaves its rotation; the other floats.
     #[test]
-    fn supports_leave_the_motions_that_they_do_not_resist() {
+    fn supports_leave_the_rigid_modes_that_they_do_not_resist() {
         let cells = [[0_usize, 1, 2], [3, 4, 5]];
         let pieces = cells.map(|cell| cell.to_vec());
         let x = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 3.0, 0.0, 4.0, 0.0, 3.0, 1.0];
-        let mut held = [false; 12];
-        (held[0], held[1]) = (true, true);
+        let mut constrained = [false; 12];
+        (constrained[0], constrained[1]) = (true, true);
         let places: Vec<Option<u32>> = (0..12).map(|dof| (dof % 6 >= 2).then_some(dof as u32)).collect();
-        let motions = free_motions(2, &pieces, &x, &held, &places);
-        assert_eq!((motions.len(), most(2, &pieces)), (4, 6));
-        let border = |a: &[f64], b: &[f64]| -> f64 {
+        let rigid_modes = free_rigid_modes(2, &pieces, &x, &constrained, &places);
+        assert_eq!((rigid_modes.len(), most(2, &pieces)), (4, 6));
+        let separator = |a: &[f64], b: &[f64]| -> f64 {
             (0..12).filter(|&i| places[i].is_some()).map(|i| a[i] * b[i]).sum()
         };
-        for (i, a) in motions.iter().enumerate() {
+        for (i, a) in rigid_modes.iter().enumerate() {
             assert!(a[0].abs() < 1e-12 && a[1].abs() < 1e-12, "the point stays");
-            for (j, b) in motions.iter().enumerate() {
-                assert!((border(a, b) - f64::from(u8::from(i == j))).abs() < 1e-12);
+            for (j, b) in rigid_modes.iter().enumerate() {
+                assert!((separator(a, b) - f64::from(u8::from(i == j))).abs() < 1e-12);
             }
             for cell in cells {
                 for (p, q) in [(0, 1), (1, 2), (2, 0)] {

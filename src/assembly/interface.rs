@@ -1,4 +1,4 @@
-//! A joint on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
+//! An interface on global dofs: a = G u, F = h Gᵀ Σ_p w_p N_pᵀ R_pᵀ t_p, K = h Gᵀ [Σ_p w_p N_pᵀ R_pᵀ D_p R_p N_p] G.
 
 use crate::coupling::{Coupling, LawPoint};
 use crate::sparse::Csr;
@@ -9,30 +9,30 @@ const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// A coupling whose columns are dofs of the model.
 #[derive(Debug, Clone)]
-pub struct Joint {
+pub struct InterfaceOperator {
     /// Name of the interface.
     pub name: String,
     /// The coupling with its geometry; its own `jump` is in side columns.
     pub coupling: Coupling,
     /// Bodies of side A and side B.
-    pub bodies: [usize; 2],
+    pub subdomains: [usize; 2],
     /// G on global dofs, in the axes of `turned`.
     pub(super) jump: Csr,
-    /// The common n and t of a straight joint, in which its jump coefficients are then given; else they are in x, y.
+    /// The common n and t of a straight interface, in which its jump coefficients are then given; else they are in x, y.
     turned: Option<[[f64; 2]; 2]>,
     thickness: f64,
 }
 
-impl Joint {
+impl InterfaceOperator {
     /// Puts a coupling on the dofs of a model whose bodies start at the nodes `first`.
     pub fn new(
         name: &str,
         coupling: Coupling,
-        bodies: [usize; 2],
+        subdomains: [usize; 2],
         first: [usize; 2],
         dofs: usize,
         thickness: f64,
-    ) -> Joint {
+    ) -> InterfaceOperator {
         let c = coupling.components;
         let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
         let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);
@@ -49,7 +49,7 @@ impl Joint {
             }
         }
         let jump = Csr::from_triplets(coupling.jump.rows(), dofs, &entries); // columns ascend again
-        Joint { name: name.into(), coupling, bodies, jump, turned, thickness }
+        InterfaceOperator { name: name.into(), coupling, subdomains, jump, turned, thickness }
     }
 
     /// R of a law point on the jump coefficients as they are given.

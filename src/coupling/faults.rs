@@ -13,8 +13,8 @@ fn both(sides: [&[Side]; 2]) -> String {
     format!("{} and {}", names(sides[0]), names(sides[1]))
 }
 
-fn refuse(name: &str, what: String, cure: &str) -> Error {
-    Error::Interface { name: name.into(), what, cure: cure.into() }
+fn error_at(name: &str, what: String, help: &str) -> Error {
+    Error::Interface { name: name.into(), what, help: help.into() }
 }
 
 /// The sides of a part are too far apart.
@@ -27,16 +27,16 @@ pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &CommonStretch) -> Er
         gap.abs(),
         part.length
     );
-    let cure = format!(
+    let help = format!(
         "{FACE} (up to {FACING:.0e} of the length beside what chords of one curve differ by), or declare an \"initial_gap\""
     );
-    refuse(name, what, &cure)
+    error_at(name, what, &help)
 }
 
 /// The sides face the same way.
 pub(super) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
     let what = format!("{} do not face each other: their bodies lie on the same side", both(sides));
-    refuse(name, what, FACE)
+    error_at(name, what, FACE)
 }
 
 /// No part lies on the other side: the sides lie beside each other.
@@ -68,7 +68,7 @@ pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> E
     } else {
         format!("they touch at ({x:.6}, {y:.6})")
     };
-    refuse(name, format!("{} have no common length, {how}", both(sides)), FACE)
+    error_at(name, format!("{} have no common length, {how}", both(sides)), FACE)
 }
 
 /// An edge faces two curves at one place.
@@ -80,5 +80,5 @@ pub(super) fn twice(name: &str, sides: [&[Side]; 2], c: &Midplane, side: usize, 
         names(sides[side]),
         names(sides[1 - side])
     );
-    refuse(name, what, "curves of one side must not lie on each other")
+    error_at(name, what, "curves of one side must not lie on each other")
 }

@@ -1,4 +1,4 @@
-//! One step, bound: what is held and loaded at any load level λ.
+//! One step, bound: what is held and loaded at any load factor λ.
 //!
 //! ```text
 //! u(λ) = u₀ + λ (u₁ − u₀),     f(λ) = f₀ + λ (f₁ − f₀)     and, where load_factor occurs in a formula, its value at λ
@@ -22,13 +22,13 @@ pub struct BoundStep {
     /// What is prescribed from increment to increment.
     pub control: Control,
     /// Held dofs.
-    pub held: Vec<bool>,
+    pub constrained: Vec<bool>,
     /// Dofs that were held and are free now: their reaction goes to zero over the step.
     pub released: Vec<usize>,
     /// Displacement of every held dof at the end of the step [length].
-    pub(super) target: Vec<f64>,
+    pub(super) prescribed: Vec<f64>,
     /// Dofs that stay where they are at the start of the step, whatever their target.
-    pub(super) kept: Vec<bool>,
+    pub(super) frozen: Vec<bool>,
     /// Dofs whose displacement follows a formula in load_factor.
     pub(super) moving: Vec<Moving>,
     /// External forces that ramp, at the start of the step [force].
@@ -48,14 +48,14 @@ pub(super) struct Moving {
 }
 
 impl Moving {
-    /// Its displacement at a load level.
+    /// Its displacement at a load factor.
     pub(super) fn at(&self, load_factor: f64) -> Result<f64> {
         self.value.at(&Place { load_factor, ..self.place })
     }
 }
 
 impl BoundStep {
-    /// External forces at a load level [force].
+    /// External forces at a load factor [force].
     pub fn force(&self, model: &Model, load_factor: f64) -> Result<Vec<f64>> {
         let mut force = self.ramped(load_factor);
         for load in &self.changing {
@@ -69,7 +69,7 @@ impl BoundStep {
         ramp(&self.force_start, &self.force_end, load_factor)
     }
 
-    /// Displacements of the held dofs at a load level, for those at the start of the step [length].
+    /// Displacements of the held dofs at a load factor, for those at the start of the step [length].
     pub fn prescribed(&self, start: &[f64], load_factor: f64) -> Result<Vec<f64>> {
         let mut u = self.moved(start, load_factor);
         for moving in &self.moving {
@@ -80,8 +80,8 @@ impl BoundStep {
 
     /// The same without those that follow a formula.
     pub fn moved(&self, start: &[f64], load_factor: f64) -> Vec<f64> {
-        let mut u = ramp(start, &self.target, load_factor);
-        for (dof, _) in self.kept.iter().enumerate().filter(|(_, kept)| **kept) {
+        let mut u = ramp(start, &self.prescribed, load_factor);
+        for (dof, _) in self.frozen.iter().enumerate().filter(|(_, frozen)| **frozen) {
             u[dof] = start[dof];
         }
         u
