@@ -77,7 +77,8 @@ impl Symbolic {
     }
 
     /// Analyses the lower triangle of a matrix whose order is good as it is.
-    pub(super) fn as_is(lower: SymbolicSparseColMatRef<'_, u32>) -> Result<Symbolic, TooLarge> {
+    pub(super) fn as_is(offsets: &[u32], rows: &[u32]) -> Result<Symbolic, TooLarge> {
+        let lower = lower(offsets, rows);
         // faer's own `Identity` would read an upper triangle
         let same: Vec<u32> = (0..lower.ncols() as u32).collect();
         let order = PermRef::new_checked(&same, &same, same.len());
@@ -123,16 +124,18 @@ impl Symbolic {
 
     /// Factors a matrix on the pattern that was analysed.
     pub fn factor(&self, pattern: &Pattern, matrix: &Symmetric) -> Result<Cholesky<'_>, NotPositiveDefinite> {
-        let values =
-            self.factor_values(SparseColMatRef::new(structure(pattern), matrix.values.as_slice()))?;
+        let values = self.factor_values(&pattern.offsets, &pattern.rows, &matrix.values)?;
         Ok(Cholesky { symbolic: self, values })
     }
 
-    /// Values of L for the lower triangle of a matrix.
+    /// Values of L for the lower triangle of a matrix, by columns.
     pub(super) fn factor_values(
         &self,
-        lower: SparseColMatRef<'_, u32, f64>,
+        offsets: &[u32],
+        rows: &[u32],
+        entries: &[f64],
     ) -> Result<Vec<f64>, NotPositiveDefinite> {
+        let lower = SparseColMatRef::new(lower(offsets, rows), entries);
         let mut values = vec![0.0; self.plan.len_val()];
         let scratch = self.plan.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
         let mut memory = MemBuffer::new(scratch);
@@ -184,8 +187,13 @@ impl Cholesky<'_> {
 }
 
 fn structure(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
-    let n = pattern.size();
-    SymbolicSparseColMatRef::new_checked(n, n, &pattern.offsets, None, &pattern.rows)
+    lower(&pattern.offsets, &pattern.rows)
+}
+
+/// Lower triangle of a matrix by columns.
+fn lower<'a>(offsets: &'a [u32], rows: &'a [u32]) -> SymbolicSparseColMatRef<'a, u32> {
+    let n = offsets.len() - 1;
+    SymbolicSparseColMatRef::new_checked(n, n, offsets, None, rows)
 }
 
 fn supernodal() -> CholeskySymbolicParams<'static> {

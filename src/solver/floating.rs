@@ -16,14 +16,12 @@
 use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Accum, Par};
 use rayon::prelude::*;
 
 use super::block::SubdomainBlock;
 use super::dense::column_mut;
+use super::lu::SparseLu;
 use super::modes::FloatingModes;
 use super::refine::Factored;
 use super::rigid_modes::most;
@@ -48,8 +46,7 @@ pub struct FloatingSubdomains<'a> {
     first: Vec<usize>,
     blocks: Vec<SubdomainBlock>,
     unknowns: usize,
-    plan: Option<(SymbolicSparseColMat<usize>, Argsort<usize>, SymbolicLu<usize>)>,
-    factor: Option<Lu<usize, f64>>,
+    lu: SparseLu,
 }
 
 impl<'a> FloatingSubdomains<'a> {
@@ -87,8 +84,7 @@ impl<'a> FloatingSubdomains<'a> {
             first,
             blocks,
             unknowns,
-            plan: None,
-            factor: None,
+            lu: SparseLu::default(),
         })
     }
 
@@ -108,20 +104,18 @@ impl<'a> FloatingSubdomains<'a> {
     }
 
     /// Places of the Jacobian's entries, in the order of `entries`.
-    fn places(&self) -> Vec<Pair<usize, usize>> {
+    fn places(&self) -> Vec<(usize, usize)> {
         let mut places = Vec::new();
         for block in &self.blocks {
             let rigid_modes = block.moved.ncols();
             for &j in &block.touched {
-                places.extend(block.touched.iter().map(|&row| Pair { row, col: j }));
-                places.extend((0..rigid_modes).map(|k| Pair { row: block.first + k, col: j }));
-                places.extend((0..rigid_modes).map(|k| Pair { row: j, col: block.first + k }));
+                places.extend(block.touched.iter().map(|&row| (row, j)));
+                places.extend((0..rigid_modes).map(|k| (block.first + k, j)));
+                places.extend((0..rigid_modes).map(|k| (j, block.first + k)));
             }
-            places.extend(
-                (rigid_modes..block.most).map(|k| Pair { row: block.first + k, col: block.first + k }),
-            );
+            places.extend((rigid_modes..block.most).map(|k| (block.first + k, block.first + k)));
         }
-        places.extend((0..self.first[self.interfaces.len()]).map(|k| Pair { row: k, col: k }));
+        places.extend((0..self.first[self.interfaces.len()]).map(|k| (k, k)));
         places
     }
 
@@ -252,26 +246,16 @@ impl Form for FloatingSubdomains<'_> {
     }
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
-        let values = self.entries(tangents);
-        if self.plan.is_none() {
-            let made =
-                SymbolicSparseColMat::try_new_from_indices(self.unknowns, self.unknowns, &self.places());
-            self.plan = made.ok().and_then(|(pattern, order)| {
-                let symbolic = SymbolicLu::try_new(pattern.as_ref()).ok()?;
-                Some((pattern, order, symbolic))
-            });
+        if !self.lu.is_planned() {
+            let places = self.places();
+            self.lu.plan(self.unknowns, places.into_iter());
         }
-        let Some((pattern, order, symbolic)) = &self.plan else { return false };
-        let matrix = SparseColMat::new_from_argsort(pattern.clone(), order, &values);
-        self.factor =
-            matrix.ok().and_then(|matrix| Lu::try_new_with_symbolic(symbolic.clone(), matrix.as_ref()).ok());
-        self.factor.is_some()
+        let values = self.entries(tangents);
+        self.lu.factor(&values)
     }
 
     fn solve(&self, b: &mut [f64]) {
-        if let Some(factor) = &self.factor {
-            factor.solve_in_place(column_mut(b));
-        }
+        self.lu.solve(b);
     }
 
     fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64> {

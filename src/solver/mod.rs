@@ -17,6 +17,7 @@ mod graph;
 mod iterate;
 mod jacobian;
 mod linear;
+mod lu;
 mod measure;
 mod method;
 mod modes;

@@ -7,7 +7,6 @@
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::graph::Graph;
@@ -31,8 +30,8 @@ pub(super) struct Part {
 pub(super) struct Submatrix {
     /// Its dofs in the whole matrix.
     pub(super) dofs: Vec<u32>,
-    offsets: Vec<u32>,
-    rows: Vec<u32>,
+    pub(super) offsets: Vec<u32>,
+    pub(super) rows: Vec<u32>,
     /// Place of every entry in the values of the whole matrix.
     pub(super) source: Vec<u32>,
 }
@@ -74,12 +73,6 @@ impl Submatrix {
         Submatrix { dofs, offsets, rows, source }
     }
 
-    /// Where it has entries.
-    pub(super) fn structure(&self) -> SymbolicSparseColMatRef<'_, u32> {
-        let n = self.dofs.len();
-        SymbolicSparseColMatRef::new_checked(n, n, &self.offsets, None, &self.rows)
-    }
-
     /// Visits the entries of the columns from one on, as (row, column, value).
     pub(super) fn visit(&self, matrix: &Symmetric, from: usize, mut entry: impl FnMut(usize, usize, f64)) {
         for j in from..self.dofs.len() {
@@ -107,7 +100,7 @@ impl Part {
                 lift
             })
             .collect();
-        let values = self.plan.factor_values(SparseColMatRef::new(self.block.structure(), &entries))?;
+        let values = self.plan.factor_values(&self.block.offsets, &self.block.rows, &entries)?;
         drop(entries);
         let m = self.separator.len();
         let mut l = Mat::zeros(m, m);

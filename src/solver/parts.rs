@@ -78,7 +78,7 @@ impl Parts {
                     _ => None,
                 };
                 let block = Submatrix::new(pattern, &graph, &nodes, local);
-                let plan = Symbolic::as_is(block.structure())?;
+                let plan = Symbolic::as_is(&block.offsets, &block.rows)?;
                 let separator = touched.iter().flat_map(|&k| c * k..c * (k + 1)).collect();
                 Ok(Part { inner: c as usize * inner, separator, plan, block })
             })

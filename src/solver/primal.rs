@@ -7,12 +7,8 @@
 //! The independent check of the condensed form, and the way for interfaces whose dense flexibility would not fit. Its accuracy
 //! ends at ε K_N h/E, because u_B − u_A is taken before it is multiplied by K_N.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{SparseColMat, Triplet};
-
-use super::dense::column_mut;
 use super::linear::tractions;
+use super::lu::SparseLu;
 use super::{Form, NodalSolution};
 use crate::assembly::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 
@@ -31,8 +27,7 @@ pub struct Primal<'a> {
     constrained: Vec<bool>,
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
-    symbolic: Option<SymbolicLu<usize>>,
-    factor: Option<Lu<usize, f64>>,
+    lu: SparseLu,
 }
 
 impl<'a> Primal<'a> {
@@ -56,8 +51,7 @@ impl<'a> Primal<'a> {
             continuum,
             constrained,
             scale,
-            symbolic: None,
-            factor: None,
+            lu: SparseLu::default(),
         }
     }
 
@@ -146,10 +140,14 @@ impl Form for Primal<'_> {
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
         let n = self.pattern.size();
-        let mut triplets = Vec::new();
+        let (mut places, mut values) = (Vec::new(), Vec::new());
+        let planned = self.lu.is_planned();
         let mut entry = |i: usize, j: usize, value: f64| {
             if !self.constrained[i] {
-                triplets.push(Triplet::new(i, j, value));
+                values.push(value);
+                if !planned {
+                    places.push((i, j));
+                }
             }
         };
         for j in 0..n {
@@ -169,22 +167,20 @@ impl Form for Primal<'_> {
             tangent.fill(&self.interfaces[k], &self.stiffness[k]);
             self.interfaces[k].visit_stiffness(&tangent.matrix, &mut entry);
         }
-        triplets.extend((0..n).filter(|&i| self.constrained[i]).map(|i| Triplet::new(i, i, self.scale)));
-        let Ok(matrix) = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &triplets) else {
-            return false;
-        };
-        if self.symbolic.is_none() {
-            self.symbolic = SymbolicLu::try_new(matrix.symbolic()).ok();
+        for i in (0..n).filter(|&i| self.constrained[i]) {
+            values.push(self.scale);
+            if !planned {
+                places.push((i, i));
+            }
         }
-        self.factor =
-            self.symbolic.clone().and_then(|plan| Lu::try_new_with_symbolic(plan, matrix.as_ref()).ok());
-        self.factor.is_some()
+        if !planned {
+            self.lu.plan(n, places.into_iter());
+        }
+        self.lu.factor(&values)
     }
 
     fn solve(&self, b: &mut [f64]) {
-        if let Some(factor) = &self.factor {
-            factor.solve_in_place(column_mut(b));
-        }
+        self.lu.solve(b);
     }
 
     fn defect(&self, _: &[f64], _: &[f64]) -> Vec<f64> {
