@@ -161,7 +161,7 @@ fn an_elastic_scene_has_no_history_and_no_iteration() {
     let steps = format!("{PRESS}, {push}");
     let elastic = problem(ELASTIC, &steps);
     let (linear, totals) = solve(&elastic);
-    assert!(elastic.states[0].is_empty() && linear[5].snapshot.states[0].is_empty());
+    assert!(elastic.interfaces[0].states.is_empty() && linear[5].snapshot.states[0].is_empty());
     assert_eq!((totals.factorisations, totals.iterations, totals.rejected), (1, 0, 0));
     // below its surface the cracking law gives the same, with one iteration an increment
     let below = problem(CRACKING, &steps);

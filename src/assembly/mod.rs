@@ -23,7 +23,7 @@ use crate::mesh::Mesh;
 
 /// One body of the model.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub struct BoundSubdomain {
     /// Name of the subdomain.
     pub name: String,
     /// Its mesh.
@@ -46,7 +46,7 @@ pub struct Model {
     /// Thickness out of the plane [length].
     pub thickness: f64,
     /// The bodies, their nodes numbered one after the other.
-    pub subdomains: Vec<Body>,
+    pub subdomains: Vec<BoundSubdomain>,
     /// The interfaces on global dofs.
     pub interfaces: Vec<InterfaceOperator>,
 }
@@ -106,7 +106,7 @@ impl Model {
     pub fn continuum(&self, pattern: &Pattern) -> Symmetric {
         let mut stiffness = Symmetric::zero(pattern);
         // every body has columns of its own
-        let mut parts: Vec<(&Body, usize, &mut [f64])> = Vec::new();
+        let mut parts: Vec<(&BoundSubdomain, usize, &mut [f64])> = Vec::new();
         let (mut rest, mut start) = (stiffness.values.as_mut_slice(), 0);
         for (b, subdomain) in self.subdomains.iter().enumerate() {
             let end = pattern.offsets[self.dofs_of(b).end] as usize;
@@ -121,7 +121,7 @@ impl Model {
     }
 }
 
-impl Body {
+impl BoundSubdomain {
     /// First node and nodes of every cell.
     fn cells(&self, first_node: usize) -> impl Iterator<Item = (usize, &[usize])> + Clone {
         (0..self.mesh.cells.len()).map(move |c| (first_node, self.mesh.cells.nodes(c)))

@@ -38,7 +38,7 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             "K_N h/E"
         ));
     }
-    for (interface, (law, _)) in model.interfaces.iter().zip(&problem.laws) {
+    for (interface, law) in model.interfaces.iter().zip(problem.laws()) {
         let survey = Survey::of(model, interface, law);
         let [a, b] = survey.edges;
         show.line(&format!(

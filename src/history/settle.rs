@@ -5,7 +5,7 @@ use super::equilibrium::{Ahead, Failure};
 use super::failure::{no_equilibrium, unusable};
 use super::loading::{LoadForces, Start};
 use crate::error::Result;
-use crate::problem::{BoundStep, Problem};
+use crate::problem::{BoundInterface, BoundStep, Problem};
 
 /// Initial tractions whose forces are out of balance by less than this part are so by rounding.
 const ROUNDED: f64 = 1e-10;
@@ -16,8 +16,9 @@ pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -
     let mut tractions = vec![0.0; problem.model.dofs()];
     let mut sum = 0.0;
     let mut given = false;
-    for (k, (interface, (_, initial))) in problem.model.interfaces.iter().zip(&problem.laws).enumerate() {
-        let states = &problem.states[k];
+    for (interface, BoundInterface { initial, states, .. }) in
+        problem.model.interfaces.iter().zip(&problem.interfaces)
+    {
         // faces that overlap press on each other without a traction of the scene
         let at = |p: usize| states.get(p).map_or(initial.at(p), |state| state.traction.into());
         let points = 0..interface.coupling.points.len();
@@ -63,8 +64,8 @@ pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -
 /// Gᵀ Σ w Nᵀ Rᵀ t₀ of the initial tractions of elastic interfaces (paper eq. 12); other laws know theirs.
 pub(super) fn initial_force(problem: &Problem) -> Vec<f64> {
     let mut force = vec![0.0; problem.model.dofs()];
-    for ((interface, (_, initial)), states) in
-        problem.model.interfaces.iter().zip(&problem.laws).zip(&problem.states)
+    for (interface, BoundInterface { initial, states, .. }) in
+        problem.model.interfaces.iter().zip(&problem.interfaces)
     {
         if states.is_empty() {
             let tractions: Vec<f64> =

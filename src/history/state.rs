@@ -18,7 +18,7 @@ use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Law};
 use crate::output::Snapshot;
-use crate::problem::{BoundProbe, ProbeInput, Problem};
+use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
 use crate::solver::NodalSolution;
 
 /// The model after an increment.
@@ -59,7 +59,7 @@ impl ModelState {
         let snapshot = Snapshot {
             u: u.clone(),
             jumps: problem.model.interfaces.iter().map(none).collect(),
-            states: problem.states.clone(),
+            states: problem.interfaces.iter().map(|interface| interface.states.clone()).collect(),
             ..Snapshot::default()
         };
         let (force, reactions) = (u.clone(), u);
@@ -77,7 +77,7 @@ impl ModelState {
             released,
             largest,
             ledger: None,
-            found: vec![false; problem.laws.len()],
+            found: vec![false; problem.interfaces.len()],
         };
         state.recover(problem);
         state
@@ -150,7 +150,7 @@ impl ModelState {
 
     /// Stresses, tractions and stored energy of the displacements and states.
     pub(super) fn recover(&mut self, problem: &Problem) {
-        let Problem { model, laws, .. } = problem;
+        let Problem { model, interfaces, .. } = problem;
         let u = &self.snapshot.u;
         self.snapshot.stresses = match self.is_complete() {
             true => (0..model.subdomains.len()).map(|b| stresses(model, b, u)).collect(),
@@ -161,7 +161,8 @@ impl ModelState {
             _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
         };
         self.snapshot.tractions = Vec::new();
-        for (k, (interface, (law, initial))) in model.interfaces.iter().zip(laws).enumerate() {
+        for (k, (interface, bound)) in model.interfaces.iter().zip(interfaces).enumerate() {
+            let BoundInterface { law, initial, states: starts, .. } = bound;
             let area = |p: usize| model.thickness * interface.coupling.points[p].weight;
             if let Law::Elastic(_) = law {
                 let d = law.elastic_stiffness();
@@ -181,7 +182,7 @@ impl ModelState {
                 }
             } else {
                 let states = &self.snapshot.states[k];
-                for (p, (state, start)) in states.iter().zip(&problem.states[k]).enumerate() {
+                for (p, (state, start)) in states.iter().zip(starts).enumerate() {
                     self.stored += area(p) * (elastic_energy(law, state) - elastic_energy(law, start));
                 }
                 let traction = |state: &law::State| [state.traction.x, state.traction.y];

@@ -129,7 +129,7 @@ fn creep_on(
 
 /// η, the largest stiffness and the steepest softening of all laws [stress / length].
 fn scales(analysis: &Analysis) -> [f64; 3] {
-    let laws = || analysis.problem.laws.iter().map(|(law, _)| law);
+    let laws = || analysis.problem.laws();
     let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
     let softening = laws().map(|law| law.steepest_softening()).fold(0.0, f64::max).min(stiffness);
     match softening > 0.0 {

@@ -2,7 +2,7 @@
 
 use super::Snapshot;
 use super::vtu::{Array, Data, VtuGrid};
-use crate::assembly::{Body, InterfaceOperator, Model};
+use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
 use crate::law;
@@ -26,7 +26,7 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
     grid
 }
 
-pub(super) fn mesh(subdomain: &Body) -> VtuGrid {
+pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
     let cells = &subdomain.mesh.cells;
     VtuGrid {
         points: subdomain.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),

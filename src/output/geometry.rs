@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::earlier::remove_grids;
 use super::files::write_whole;
 use super::vtu::{Array, VtuGrid};
-use crate::assembly::{Body, InterfaceOperator, Model};
+use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::error::Result;
 
 /// What a line or point of the file is.
@@ -43,7 +43,7 @@ pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
     Ok(folder.to_path_buf())
 }
 
-fn quality(subdomain: &Body) -> VtuGrid {
+fn quality(subdomain: &BoundSubdomain) -> VtuGrid {
     let mut grid = super::fields::mesh(subdomain);
     grid.cell_data =
         vec![Array::float("quality", 1, (0..subdomain.mesh.cells.len()).map(|c| subdomain.mesh.quality(c)))];

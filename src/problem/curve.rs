@@ -21,6 +21,44 @@ pub(super) struct PlannedInterface<'a> {
     pub sides: [Vec<Curve>; 2],
 }
 
+/// What decides how an interface is joined: all that `PlannedInterface::join` may read of what the scene states.
+#[derive(Debug, Clone, Copy)]
+pub struct Joining<'a> {
+    pub(super) sides: [&'a Option<OneOrMany>; 2],
+    pub(super) between: &'a Option<[String; 2]>,
+    coupling: CouplingKind,
+    grid: Grid,
+    quadrature: Quadrature,
+    gap: Gap,
+}
+
+impl<'a> Joining<'a> {
+    pub(super) fn of(stated: &'a Interface) -> Joining<'a> {
+        // whoever adds a key decides here whether interfaces that differ in it are joined alike
+        let Interface {
+            side_a,
+            side_b,
+            between,
+            coupling,
+            grid,
+            quadrature,
+            initial_gap,
+            law: _,
+            law_tolerance: _,
+            initial_traction: _,
+        } = stated;
+        let gap = if initial_gap.is_some() { Gap::Open } else { Gap::Closed };
+        let (coupling, grid, quadrature) = (*coupling, *grid, *quadrature);
+        Joining { sides: [side_a, side_b], between, coupling, grid, quadrature, gap }
+    }
+}
+
+/// How the interfaces of a scene are joined, by their keys: scenes that agree in it, on the same meshes of the same subdomains,
+/// have the same interfaces.
+pub fn joinings(scene: &Scene) -> Vec<(&str, Joining<'_>)> {
+    scene.interfaces.iter().map(|(entry, stated)| (entry.as_str(), Joining::of(stated))).collect()
+}
+
 /// A curve of a side.
 pub(super) struct Curve {
     /// Number of its body.
@@ -69,17 +107,17 @@ impl PlannedInterface<'_> {
             curves.collect()
         });
         let quadrilaterals = || self.sides.iter().flatten().all(|curve| on_quadrilaterals(model, curve));
-        let kind = match (self.stated.coupling, self.stated.grid) {
+        let Joining { coupling, grid, quadrature, gap, .. } = Joining::of(self.stated);
+        let kind = match (coupling, grid) {
             (CouplingKind::Pointwise, _) => JumpScheme::Pointwise,
             (_, Grid::Quadratic) => JumpScheme::Projected,
             (_, Grid::Auto) if quadrilaterals() => JumpScheme::Projected,
             (_, Grid::Auto | Grid::Linear) => JumpScheme::ProjectedLinear,
         };
-        let points = match self.stated.quadrature {
+        let points = match quadrature {
             Quadrature::Gauss => Points::Gauss,
             Quadrature::Lobatto => Points::Lobatto,
         };
-        let gap = if self.stated.initial_gap.is_some() { Gap::Open } else { Gap::Closed };
         let coupling = Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap })?;
         let subdomains = [0, 1].map(|i| self.sides[i][0].subdomain);
         // the coupling's nodes are those of the model

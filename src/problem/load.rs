@@ -24,7 +24,7 @@ enum LoadTarget {
     /// Points of a body.
     Points { subdomain: usize, points: Vec<usize> },
     /// A whole body: force per volume times a factor.
-    Body { subdomain: usize, factor: f64 },
+    BoundSubdomain { subdomain: usize, factor: f64 },
 }
 
 impl BoundLoad {
@@ -81,7 +81,7 @@ impl BoundLoad {
         let values = [quantity("0", x), quantity("1", y)];
         match values.iter().find(|value| value.uses(Variable::S)) {
             Some(value) => Err(value.error_at_s("a body has no such coordinate")),
-            None => Ok(BoundLoad { target: LoadTarget::Body { subdomain, factor }, values }),
+            None => Ok(BoundLoad { target: LoadTarget::BoundSubdomain { subdomain, factor }, values }),
         }
     }
 
@@ -93,7 +93,7 @@ impl BoundLoad {
     /// True if it has no nodal force at any of the load factors of a step.
     pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
         let both = self.values.each_ref().map(Quantity::constant);
-        if let LoadTarget::Body { factor: 0.0, .. } = self.target {
+        if let LoadTarget::BoundSubdomain { factor: 0.0, .. } = self.target {
             return Ok(true);
         }
         if let [Some(x), Some(y)] = both {
@@ -155,7 +155,7 @@ impl BoundLoad {
                     scatter(subdomain.first_node + point, at(subdomain.mesh.points[point], 0.0)?);
                 }
             }
-            LoadTarget::Body { subdomain, factor } => {
+            LoadTarget::BoundSubdomain { subdomain, factor } => {
                 let (subdomain, mesh) = (&model.subdomains[*subdomain], &model.subdomains[*subdomain].mesh);
                 let factor = factor * model.thickness;
                 if constant == Some([0.0; 2]) || factor == 0.0 {

@@ -9,6 +9,7 @@ mod groups;
 mod history;
 mod idle;
 mod initial;
+mod interface;
 mod load;
 mod parts;
 mod plan;
@@ -22,9 +23,11 @@ mod unjoined;
 mod unused;
 mod warnings;
 
+pub use curve::joinings;
 pub use gap::Gaps;
 pub use history::Reaction;
 pub use initial::InitialTraction;
+pub use interface::BoundInterface;
 pub use parts::subdomain_meshes;
 pub use probes::{BoundProbe, ProbeInput};
 pub use rigid::is_constrained;
@@ -33,10 +36,13 @@ pub use stiffness::stiffness_number;
 pub use survey::Survey;
 pub use unused::unused_groups;
 
-use crate::assembly::{Body, InterfaceOperator, Model};
+use curve::PlannedInterface;
+use unjoined::Connectivity;
+
+use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::{Elasticity, PlaneState};
 use crate::error::{Result, Warning};
-use crate::law::{self, Integration, Law};
+use crate::law::Law;
 use crate::mesh::Mesh;
 use crate::scene::{self, Scene};
 
@@ -45,12 +51,8 @@ use crate::scene::{self, Scene};
 pub struct Problem {
     /// Bodies and interfaces.
     pub model: Model,
-    /// Law and initial traction of every interface.
-    pub laws: Vec<(Law, InitialTraction)>,
-    /// States of the law points before the first increment; empty for an elastic interface, which has no history.
-    pub states: Vec<Vec<law::State>>,
-    /// How the laws' integration is controlled, interface by interface.
-    pub integration: Vec<Integration>,
+    /// What acts on each of its interfaces.
+    pub interfaces: Vec<BoundInterface>,
     /// How equilibrium is found where an interface is not elastic.
     pub solution: scene::Solution,
     /// Supports and loads step by step.
@@ -61,8 +63,6 @@ pub struct Problem {
     pub probes: Vec<(String, BoundProbe)>,
     /// Groups that hold something, for their reactions.
     pub reactions: Vec<Reaction>,
-    /// True for the elastic interfaces that are too stiff for differences of displacements.
-    pub stiff: Vec<bool>,
     /// What the user should know before believing the result.
     pub warnings: Vec<Warning>,
 }
@@ -74,76 +74,69 @@ impl Problem {
         self.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
     }
 
+    /// The laws of the interfaces, in their order.
+    pub fn laws(&self) -> impl Iterator<Item = &Law> {
+        self.interfaces.iter().map(|interface| &interface.law)
+    }
+
     /// Binds a scene to the meshes of its subdomains, in their order.
     pub fn bind(scene: &Scene, meshes: Vec<Mesh>) -> Result<Problem> {
         Problem::bind_joined(scene, meshes, &[])
     }
 
-    /// The same where the interfaces are known from a scene that differs in laws, materials, loads or output only.
-    pub fn bind_joined(
-        scene: &Scene,
-        meshes: Vec<Mesh>,
-        interfaces: &[InterfaceOperator],
-    ) -> Result<Problem> {
-        let mut model = Model {
-            components: 2,
-            thickness: scene.thickness,
-            subdomains: subdomains(scene, meshes),
-            interfaces: Vec::new(),
-        };
-        let mut warnings = warnings::locking(&model.subdomains);
-        let (mut laws, mut states, mut integration) = (Vec::new(), Vec::new(), Vec::new());
-        let mut stiff = Vec::new();
-        let plans = plan::plans(scene, &model)?;
-        for (k, plan) in plans.iter().enumerate() {
-            let interface =
-                interfaces.get(k).map_or_else(|| plan.join(&model), |interface| Ok(interface.clone()))?;
-            let stated = plan.stated;
-            stiffness::check_precision(scene, &model, &interface, plan)?;
-            warnings.extend(warnings::of_interface(scene, &model, &interface, plan));
-            stiff.push(stiffness::is_stiff(scene, stated, &model, &interface));
-            let gaps = Gaps::new(stated.initial_gap, &interface);
-            let initial = InitialTraction::bind(scene, plan.entry, stated, &interface)?;
-            states.push(initial::states(scene, plan.entry, &stated.law, &initial, &gaps, &interface)?);
-            integration.push(Integration::Tolerance(stated.law_tolerance));
-            laws.push((stated.law, initial));
-            model.interfaces.push(interface);
-        }
-        warnings.extend(cover::shares(scene, &model, &plans)?);
-        let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
-        warnings.extend(unjoined);
-        model
-            .subdomains
-            .iter_mut()
-            .zip(&connectivity)
-            .for_each(|(subdomain, found)| subdomain.pieces = found.nodes(subdomain));
+    /// The same where the interfaces are known from a scene that joins alike (`joinings`).
+    pub fn bind_joined(scene: &Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) -> Result<Problem> {
+        let Joined { model, interfaces, plans, connectivity, mut warnings } = join(scene, meshes, known)?;
         let (steps, reactions) = history::steps(scene, &model)?;
         warnings.extend(idle::loads(scene, &model)?);
         warnings.extend(idle::keys(scene, &plans));
         for step in &steps {
-            let warning = rigid::check_free_subdomains(&model, &connectivity, &laws, step)?;
+            let warning = rigid::check_free_subdomains(&model, &connectivity, &interfaces, step)?;
             let new = warning.filter(|warning| !warnings.contains(warning));
             warnings.extend(new);
         }
         let probes = probes::bind(scene, &model)?;
         let (solution, fields) = (scene.solution, scene.output.fields);
-        Ok(Problem {
-            model,
-            laws,
-            states,
-            integration,
-            solution,
-            fields,
-            steps,
-            probes,
-            reactions,
-            stiff,
-            warnings,
-        })
+        Ok(Problem { model, interfaces, solution, steps, fields, probes, reactions, warnings })
     }
 }
 
-fn subdomains(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
+/// Subdomains and interfaces, finished: loads, probes and the history are bound on them.
+struct Joined<'a> {
+    model: Model,
+    interfaces: Vec<BoundInterface>,
+    plans: Vec<PlannedInterface<'a>>,
+    connectivity: Vec<Connectivity>,
+    warnings: Vec<Warning>,
+}
+
+fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) -> Result<Joined<'a>> {
+    let mut model = Model {
+        components: 2,
+        thickness: scene.thickness,
+        subdomains: subdomains(scene, meshes),
+        interfaces: Vec::new(),
+    };
+    let mut warnings = warnings::locking(&model.subdomains);
+    let mut interfaces = Vec::new();
+    let plans = plan::plans(scene, &model)?;
+    for (k, plan) in plans.iter().enumerate() {
+        let operator = known.get(k).map_or_else(|| plan.join(&model), |known| Ok(known.clone()))?;
+        stiffness::check_precision(scene, &model, &operator, plan)?;
+        warnings.extend(warnings::of_interface(scene, &model, &operator, plan));
+        interfaces.push(BoundInterface::new(scene, &model, &operator, plan)?);
+        model.interfaces.push(operator);
+    }
+    warnings.extend(cover::shares(scene, &model, &plans)?);
+    let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
+    warnings.extend(unjoined);
+    for (subdomain, found) in model.subdomains.iter_mut().zip(&connectivity) {
+        subdomain.pieces = found.nodes(subdomain);
+    }
+    Ok(Joined { model, interfaces, plans, connectivity, warnings })
+}
+
+fn subdomains(scene: &Scene, meshes: Vec<Mesh>) -> Vec<BoundSubdomain> {
     let plane = match scene.plane {
         scene::Plane::Strain => PlaneState::Strain,
         scene::Plane::Stress => PlaneState::Stress,
@@ -152,7 +145,7 @@ fn subdomains(scene: &Scene, meshes: Vec<Mesh>) -> Vec<Body> {
     let subdomains = scene.subdomains.iter().zip(meshes).map(|((name, subdomain), mesh)| {
         let material = scene.materials[&subdomain.material];
         let elasticity = Elasticity::new(material.young, material.poisson, plane);
-        let subdomain = Body {
+        let subdomain = BoundSubdomain {
             name: name.clone(),
             mesh,
             elasticity,

@@ -9,10 +9,9 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::stiffness::compliance;
 use super::unjoined::Connectivity;
-use super::{BoundStep, InitialTraction};
+use super::{BoundInterface, BoundStep};
 use crate::assembly::Model;
 use crate::error::{Code, Error, Result, Warning};
-use crate::law::Law;
 
 /// A motion is free if its resistance is below this. Of the largest resistance.
 const FREE: f64 = 1e-12;
@@ -51,7 +50,7 @@ pub fn is_constrained(model: &Model, subdomain: usize, constrained: &[bool]) -> 
 pub(super) fn check_free_subdomains(
     model: &Model,
     connectivity: &[Connectivity],
-    laws: &[(Law, InitialTraction)],
+    interfaces: &[BoundInterface],
     step: &BoundStep,
 ) -> Result<Option<Warning>> {
     let (parts, part_of, hinges) = parts(model, connectivity);
@@ -100,7 +99,7 @@ pub(super) fn check_free_subdomains(
         }
     }
     let mut u = vec![0.0; model.dofs()];
-    for (interface, (law, _)) in model.interfaces.iter().zip(laws) {
+    for (interface, BoundInterface { law, .. }) in model.interfaces.iter().zip(interfaces) {
         let mut nodes = [interface.coupling.nodes_a.as_slice(), &interface.coupling.nodes_b].concat();
         nodes.sort_unstable();
         nodes.dedup(); // both sides of a slit share its tips

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::between::JoinedEdges;
 use super::curve::PlannedInterface;
-use crate::assembly::{Body, Model};
+use crate::assembly::{BoundSubdomain, Model};
 use crate::error::{Code, Result, Warning};
 use crate::mesh::{Edge, Mesh, Pieces, Touch, coinciding};
 
@@ -78,7 +78,7 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
 
 impl Connectivity {
     /// Nodes of the pieces of a subdomain; none if it is in one.
-    pub(super) fn nodes(&self, subdomain: &Body) -> Vec<Vec<usize>> {
+    pub(super) fn nodes(&self, subdomain: &BoundSubdomain) -> Vec<Vec<usize>> {
         let Pieces { count, of_cell, .. } = &self.pieces;
         let mut nodes = vec![Vec::new(); if *count < 2 { 0 } else { *count }];
         for (cell, &piece) in of_cell.iter().enumerate().filter(|_| *count > 1) {
@@ -92,7 +92,7 @@ impl Connectivity {
     }
 
     /// "up falls into 2 pieces that share only the node at (1, 0.5)"; nothing of a subdomain in one piece.
-    pub(super) fn told(&self, subdomain: &Body) -> Option<String> {
+    pub(super) fn told(&self, subdomain: &BoundSubdomain) -> Option<String> {
         let Pieces { count, hinges, .. } = &self.pieces;
         if *count < 2 {
             return None;
@@ -117,7 +117,7 @@ impl Connectivity {
 }
 
 /// "lie on each other along 2 near (1, 0.5)".
-fn on_each_other(subdomain: &Body, (length, middle): &ContactLine) -> String {
+fn on_each_other(subdomain: &BoundSubdomain, (length, middle): &ContactLine) -> String {
     format!("lie on each other along {} near {}", short(subdomain, *length), near(subdomain, *middle))
 }
 
@@ -141,12 +141,12 @@ fn add((length, middle): &mut ContactLine, touch: &Touch) {
 }
 
 /// "(1, 0.5)".
-fn near(subdomain: &Body, [x, y]: [f64; 2]) -> String {
+fn near(subdomain: &BoundSubdomain, [x, y]: [f64; 2]) -> String {
     format!("({}, {})", short(subdomain, x), short(subdomain, y))
 }
 
 /// A length with as many decimals as the extent of the mesh asks for, and no zeros behind them.
-fn short(subdomain: &Body, value: f64) -> String {
+fn short(subdomain: &BoundSubdomain, value: f64) -> String {
     let extent = subdomain.mesh.points.iter().flatten().fold(0.0_f64, |extent, x| extent.max(x.abs()));
     let decimals = (DIGITS - 1.0 - extent.log10().floor()).clamp(0.0, 30.0) as usize;
     let text = format!("{value:.decimals$}");

@@ -2,7 +2,7 @@
 
 use super::curve::PlannedInterface;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
-use crate::assembly::{Body, InterfaceOperator, Model};
+use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::error::{Code, Warning};
 use crate::scene::{CouplingKind, Scene};
 
@@ -72,8 +72,8 @@ pub(super) fn of_interface(
 }
 
 /// Bodies in plane strain whose elements lock: their volume cannot change, and linear elements know no other way to deform.
-pub(super) fn locking(subdomains: &[Body]) -> Vec<Warning> {
-    let locks = |subdomain: &&Body| {
+pub(super) fn locking(subdomains: &[BoundSubdomain]) -> Vec<Warning> {
+    let locks = |subdomain: &&BoundSubdomain| {
         subdomain.elasticity.out_of_plane > LOCKING
             && subdomain.mesh.cells.shapes.iter().any(|s| !s.is_quadratic())
     };

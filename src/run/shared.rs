@@ -4,13 +4,12 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use serde_json::Value;
-
 use super::Options;
 use crate::assembly::InterfaceOperator;
 use crate::error::Result;
 use crate::history::memory;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
+use crate::problem::joinings;
 use crate::scene::Scene;
 use crate::solver::SubdomainCache;
 
@@ -78,17 +77,8 @@ impl Shared {
 
 /// All that decides the interfaces of a scene on these meshes: everything but laws, materials, loads and output.
 pub(super) fn interfaces_key(scene: &Scene, files: &[PathBuf], file_of: &[usize]) -> String {
-    let interface = |interface| {
-        let mut value = serde_json::to_value(interface).unwrap_or_default();
-        for key in ["law", "law_tolerance", "initial_traction"] {
-            value.as_object_mut().and_then(|object| object.remove(key));
-        }
-        value
-    };
-    let interfaces: Vec<Value> = scene.interfaces.values().map(interface).collect();
-    let names: Vec<&String> = scene.interfaces.keys().collect();
     let parts: Vec<_> = scene.subdomains.iter().map(|(name, part)| (name, &part.surface)).collect();
-    format!("{:?}", (files, file_of, scene.thickness.to_bits(), parts, names, interfaces))
+    format!("{:?}", (files, file_of, scene.thickness.to_bits(), parts, joinings(scene)))
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

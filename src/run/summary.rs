@@ -142,7 +142,7 @@ pub(super) fn summary<'a>(
         }
         (subdomain.name.as_str(), SubdomainSize { nodes: subdomain.mesh.points.len(), cells })
     });
-    let interfaces = model.interfaces.iter().zip(&problem.laws).map(|(interface, (law, _))| {
+    let interfaces = model.interfaces.iter().zip(problem.laws()).map(|(interface, law)| {
         let midplane = &interface.coupling.midplane;
         let size = InterfaceSize {
             edges_a: midplane.a.edges(),

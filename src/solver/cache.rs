@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use sha2::{Digest, Sha256};
 
 use super::{CondensedSubdomain, NotPositiveDefinite, Substructure, TooLarge};
-use crate::assembly::Body;
+use crate::assembly::BoundSubdomain;
 
 /// All that decides a body and its separator, as a digest.
 type SubdomainDigest = [u8; 32];
@@ -30,7 +30,7 @@ impl SubdomainCache {
     pub(super) fn subdomain(
         &self,
         components: usize,
-        subdomain: &Body,
+        subdomain: &BoundSubdomain,
         thickness: f64,
         joined: &[bool],
     ) -> Result<(Arc<Substructure>, bool), TooLarge> {
@@ -66,7 +66,7 @@ impl SubdomainCache {
     }
 }
 
-fn key(subdomain: &Body, thickness: f64, joined: &[bool]) -> SubdomainDigest {
+fn key(subdomain: &BoundSubdomain, thickness: f64, joined: &[bool]) -> SubdomainDigest {
     let mut hash = Sha256::new();
     let mut numbers = |part: &mut dyn Iterator<Item = u64>| {
         let bytes: Vec<u8> = part.flat_map(u64::to_le_bytes).collect();

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use faer::Mat;
 
 use super::{Cut, NotPositiveDefinite, Parts, TooLarge, nested_dissection};
-use crate::assembly::{Body, Pattern, Symmetric};
+use crate::assembly::{BoundSubdomain, Pattern, Symmetric};
 
 /// The stiffness of a body and the plan of its condensation.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl Substructure {
     /// Assembles a body and plans its condensation on the nodes that are `joined`.
     pub fn new(
         components: usize,
-        subdomain: &Body,
+        subdomain: &BoundSubdomain,
         thickness: f64,
         joined: &[bool],
     ) -> Result<Substructure, TooLarge> {

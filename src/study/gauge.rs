@@ -54,8 +54,8 @@ impl<'a> Gauge<'a> {
             }
         }
         let model = &problem.model;
-        let stiffness = model.interfaces.iter().zip(&problem.laws);
-        let stiffness = stiffness.map(|(interface, (law, _))| stiffness_number(model, interface, law));
+        let stiffness = model.interfaces.iter().zip(problem.laws());
+        let stiffness = stiffness.map(|(interface, law)| stiffness_number(model, interface, law));
         self.method = totals.method.name();
         self.counts = IndexMap::from([
             ("nodes", model.nodes() as f64),

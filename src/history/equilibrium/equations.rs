@@ -206,7 +206,7 @@ fn settings(solution: &Solution) -> NewtonSettings {
 /// Law stiffness of an interface's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
 /// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
 fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -> Vec<f64> {
-    let (interface, (law, _)) = (&problem.model.interfaces[k], &problem.laws[k]);
+    let (interface, law) = (&problem.model.interfaces[k], &problem.interfaces[k].law);
     let midplane = &interface.coupling.midplane;
     let edges = midplane.a.edges().min(midplane.b.edges());
     let young = interface.subdomains.map(|subdomain| problem.model.subdomains[subdomain].elasticity.young);

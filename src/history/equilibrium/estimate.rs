@@ -49,7 +49,7 @@ pub(super) fn error_of<F: Form>(
 ) -> Option<Estimate> {
     let problem = view.problem;
     let straight = found.interfaces.iter().all(|of| {
-        let k = problem.laws[of.interface].0.elastic_stiffness();
+        let k = problem.interfaces[of.interface].law.elastic_stiffness();
         old[of.interface].iter().zip(&of.memory).all(|(old, new)| is_straight(k, old, new))
     });
     if straight {
@@ -110,7 +110,10 @@ fn over_the_middle<F: Form>(
             estimate.work += area * bend.dot(&moved) / 3.0;
             bends += area * bend.dot(&moved).abs() / 3.0;
             estimate.cracked |= new.dissipation > 0.0
-                && problem.laws[of.interface].0.onset(new.state.jump, old).is_some_and(|share| share > ON);
+                && problem.interfaces[of.interface]
+                    .law
+                    .onset(new.state.jump, old)
+                    .is_some_and(|share| share > ON);
             works += area * 0.5 * (old.traction + new.state.traction).dot(&moved).abs();
         }
     }
@@ -129,7 +132,7 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
         let interface = &problem.model.interfaces[k];
         let states = &snapshot.states[k];
         let tractions: Vec<f64> = if states.is_empty() {
-            let d = problem.laws[k].0.elastic_stiffness();
+            let d = problem.interfaces[k].law.elastic_stiffness();
             snapshot.jumps[k].iter().flat_map(|r| [d[0] * r[0], d[1] * r[1]]).collect()
         } else {
             states.iter().flat_map(|state| [state.traction.x, state.traction.y]).collect()

@@ -45,8 +45,8 @@ pub(super) fn condensed<'a>(
     settings: NewtonSettings,
 ) -> NewtonEngine<'a, Condensed<'a>> {
     let size: usize = condensed_interfaces.iter().map(|&k| problem.model.interfaces[k].size()).sum();
-    let intact: Vec<Vec<f64>> = (problem.laws.iter().zip(&problem.model.interfaces))
-        .map(|((law, _), interface)| {
+    let intact: Vec<Vec<f64>> = (problem.laws().zip(&problem.model.interfaces))
+        .map(|(law, interface)| {
             let [kn, kt] = law.elastic_stiffness();
             [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
         })

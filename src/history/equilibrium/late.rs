@@ -14,7 +14,7 @@ pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged
     let mut fractions: Vec<Vec<f64>> = old.iter().map(|states| vec![f64::NAN; states.len()]).collect();
     let mut first = 1.0_f64;
     for of in &found.interfaces {
-        let law = &problem.laws[of.interface].0;
+        let law = &problem.interfaces[of.interface].law;
         for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
             if new.dissipation > 0.0
                 && let Some(fraction) = law.onset_or_on(new.state.jump, old)
@@ -50,7 +50,7 @@ pub(super) fn crack<F: Form>(
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
         for ((jump, old), intact) in jumps.chunks_exact(2).zip(&old[k]).zip(&intact[k]) {
-            if *intact && problem.laws[k].0.onset([jump[0], jump[1]].into(), old).is_some() {
+            if *intact && problem.interfaces[k].law.onset([jump[0], jump[1]].into(), old).is_some() {
                 return Some(true);
             }
         }
@@ -83,7 +83,7 @@ pub(super) fn first_onset<F: Form>(
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
         for (jump, old) in jumps.chunks_exact(2).zip(&old[k]) {
-            let fraction = problem.laws[k].0.onset([jump[0], jump[1]].into(), old);
+            let fraction = problem.interfaces[k].law.onset([jump[0], jump[1]].into(), old);
             first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));
         }
     }

@@ -41,9 +41,9 @@ impl<'a> Laws<'a> {
         point: usize,
         jump: &[f64],
     ) -> Result<law::Response, String> {
-        let (law, _) = &self.problem.laws[interface];
+        let law = &self.problem.interfaces[interface].law;
         let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[interface][point]);
-        let integration = self.problem.integration[interface];
+        let integration = self.problem.interfaces[interface].integration;
         let answer = match self.viscosity {
             Some(_) => law.respond_lagged(jump, old, integration, self.lags),
             None => law.respond(jump, old, integration),
@@ -63,7 +63,7 @@ impl Respond for Laws<'_> {
         traction: &mut [f64],
         stiffness: &mut [f64],
     ) -> Result<PointResponse, String> {
-        let (law, _) = &self.problem.laws[interface];
+        let law = &self.problem.interfaces[interface].law;
         if let Law::Elastic(_) = law {
             let [kn, kt] = law.elastic_stiffness();
             traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
@@ -102,7 +102,7 @@ impl Respond for Laws<'_> {
     }
 
     fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]) {
-        let [kn, kt] = self.problem.laws[interface].0.elastic_stiffness();
+        let [kn, kt] = self.problem.interfaces[interface].law.elastic_stiffness();
         stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
     }
 }
@@ -110,7 +110,7 @@ impl Respond for Laws<'_> {
 /// Friction may lag wherever it is steep: some law dilates and the viscosity is above the softening, or steps are so small
 /// that lagging costs nothing.
 pub(super) fn may_lag(problem: &Problem, viscosity: f64) -> bool {
-    let laws = || problem.laws.iter().map(|(law, _)| law).filter(|law| law.steepest_softening() > 0.0);
+    let laws = || problem.laws().filter(|law| law.steepest_softening() > 0.0);
     let stiffness = laws().flat_map(|law| law.elastic_stiffness()).fold(0.0, f64::max);
     let softening = laws().map(|law| law.steepest_softening()).fold(0.0, f64::max);
     let least =

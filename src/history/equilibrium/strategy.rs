@@ -30,8 +30,8 @@ pub struct Operations {
 
 /// Joints that are not elastic.
 pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
-    let laws = problem.laws.iter().enumerate();
-    laws.filter(|(_, (law, _))| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
+    let laws = problem.laws().enumerate();
+    laws.filter(|(_, law)| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
 }
 
 /// Joints whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear
@@ -40,11 +40,11 @@ pub(in crate::history) fn condensed_interfaces(problem: &Problem) -> Vec<usize> 
     let active = active(problem);
     match problem.solution.strategy {
         Strategy::Plain => return active,
-        Strategy::Condensed if active.is_empty() => return (0..problem.laws.len()).collect(),
-        Strategy::Blocks => return (0..problem.laws.len()).collect(),
+        Strategy::Condensed if active.is_empty() => return (0..problem.interfaces.len()).collect(),
+        Strategy::Blocks => return (0..problem.interfaces.len()).collect(),
         _ => {}
     }
-    (0..problem.laws.len()).filter(|k| problem.stiff[*k] || active.contains(k)).collect()
+    (0..problem.interfaces.len()).filter(|k| problem.interfaces[*k].stiff || active.contains(k)).collect()
 }
 
 /// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic interfaces need their jumps
@@ -82,7 +82,7 @@ pub(in crate::history) fn choose(
     let method = match problem.solution.strategy {
         Strategy::Auto if condensed_interfaces.is_empty() => Method::Condensed,
         Strategy::Auto => {
-            let stiff = condensed_interfaces.iter().any(|&k| problem.stiff[k]);
+            let stiff = condensed_interfaces.iter().any(|&k| problem.interfaces[k].stiff);
             let condensed = if fits { estimate.condensed } else { f64::INFINITY };
             let plain = if stiff { f64::INFINITY } else { estimate.plain };
             match estimate.blocks {

@@ -21,7 +21,7 @@ pub(super) fn account(
     let (mut released, mut bent) = (0.0, 0.0);
     for (a, &k) in active.iter().enumerate() {
         let points = &problem.model.interfaces[k].coupling.points;
-        let dilates = problem.laws[k].0.dilates();
+        let dilates = problem.interfaces[k].law.dilates();
         let mut now = Vec::with_capacity(2 * points.len());
         for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next

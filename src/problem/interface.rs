@@ -1,0 +1,45 @@
+//! An interface, bound: its law with all that the law starts from.
+
+use super::curve::PlannedInterface;
+use super::{Gaps, InitialTraction, initial, stiffness};
+use crate::assembly::{InterfaceOperator, Model};
+use crate::error::Result;
+use crate::law::{self, Integration, Law};
+use crate::scene::Scene;
+
+/// An interface, bound.
+#[derive(Debug, Clone)]
+pub struct BoundInterface {
+    /// Its law.
+    pub law: Law,
+    /// Initial tractions.
+    pub initial: InitialTraction,
+    /// States of the law points before the first increment; empty for an elastic interface, which has no history.
+    pub states: Vec<law::State>,
+    /// Control of the law's integration.
+    pub integration: Integration,
+    /// True for an elastic interface that is too stiff for differences of displacements.
+    pub stiff: bool,
+}
+
+impl BoundInterface {
+    /// What a scene states of an interface, on its geometry.
+    pub(super) fn new(
+        scene: &Scene,
+        model: &Model,
+        operator: &InterfaceOperator,
+        plan: &PlannedInterface,
+    ) -> Result<BoundInterface> {
+        let stated = plan.stated;
+        let gaps = Gaps::new(stated.initial_gap, operator);
+        let initial = InitialTraction::bind(scene, plan.entry, stated, operator)?;
+        let states = initial::states(scene, plan.entry, &stated.law, &initial, &gaps, operator)?;
+        Ok(BoundInterface {
+            law: stated.law,
+            initial,
+            states,
+            integration: Integration::Tolerance(stated.law_tolerance),
+            stiff: stiffness::is_stiff(scene, stated, model, operator),
+        })
+    }
+}
