@@ -9,7 +9,6 @@ use std::sync::Arc;
 use midplane::continuum::recover;
 use midplane::history::{Clock, Equations, History, Means, processor};
 use midplane::problem::Problem;
-use midplane::scene;
 use midplane::solver::{FactorPlan, Linear, System};
 
 mod layers;
@@ -34,7 +33,8 @@ fn main() {
 }
 
 fn measure(dofs: usize) -> Result<(), String> {
-    let scene = scene::parse("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
+    let scene =
+        midplane::run::parse_scene("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
     let problem = Problem::bind(&scene, layers(dofs)).map_err(|e| e.to_string())?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(|e| e.to_string())?;
     let problem = Arc::new(problem);

@@ -11,7 +11,6 @@ use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use midplane::law::{Integration, State};
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
-use midplane::scene;
 use midplane::solver::{Base, Condensation, Condensed, Continuum, FactorPlan, Form};
 use nalgebra::Vector2;
 
@@ -34,7 +33,7 @@ fn main() {
 }
 
 fn problem(dofs: usize) -> Problem {
-    let scene = scene::parse("scene.json".into(), SCENE.into(), &[]);
+    let scene = midplane::run::parse_scene("scene.json".into(), SCENE.into(), &[]);
     let bound = scene.and_then(|scene| Problem::bind(&scene, layers(dofs)));
     bound.unwrap_or_else(|error| unreachable!("{error}"))
 }

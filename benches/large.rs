@@ -8,7 +8,6 @@ use std::time::Instant;
 use midplane::assembly::{Pattern, Symmetric, add_stiffness};
 use midplane::history::{Clock, Equations, History, Means, memory};
 use midplane::problem::Problem;
-use midplane::scene;
 use midplane::solver::{Cut, FactorPlan, Parts, Symbolic, nested_dissection};
 
 mod layers;
@@ -32,7 +31,8 @@ fn main() {
 }
 
 fn measure(dofs: usize) -> Result<(), String> {
-    let scene = scene::parse("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
+    let scene =
+        midplane::run::parse_scene("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
     let problem = timed("bind", || Problem::bind(&scene, layers(dofs))).map_err(|e| e.to_string())?;
     let model = &problem.model;
     println!("{} dofs", model.dofs());

@@ -19,7 +19,6 @@ use faer::traits::ComplexField;
 use faer::{Conj, MatMut, Par, Side};
 use midplane::assembly::{Pattern, Symmetric};
 use midplane::problem::Problem;
-use midplane::scene;
 use midplane::solver::nested_dissection;
 
 mod layers;
@@ -42,7 +41,8 @@ fn main() {
 }
 
 fn measure(dofs: usize) -> Result<(), String> {
-    let scene = scene::parse("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
+    let scene =
+        midplane::run::parse_scene("scene.json".into(), SCENE.into(), &[]).map_err(|e| e.to_string())?;
     let problem = Problem::bind(&scene, layers(dofs)).map_err(|e| e.to_string())?;
     let model = &problem.model;
     let pattern = model.pattern();

@@ -14,7 +14,7 @@
 //! jumps and tractions are ordered (n, t). Units are the user's own, as long as they are consistent.
 //!
 //! The rooms, each of which may import only those above it (a test enforces the table):
-//! `error`, `sparse`, `shape`, `law`, `mesh`, `scene`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
+//! `error`, `sparse`, `shape`, `law`, `scene`, `mesh`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
 //! `history`, `run`, `study`, `cli`.
 
 #![warn(missing_docs)]

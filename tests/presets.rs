@@ -59,7 +59,7 @@ const SCENE: &str = r#"{ "plane": "strain",
 fn read(text: &str, settings: &[&str]) -> midplane::error::Result<scene::Scene> {
     let file = Path::new(ROOT).join("geo/strip/scene.json");
     let settings: Vec<String> = settings.iter().map(|s| s.to_string()).collect();
-    scene::parse(file, text.into(), &settings)
+    midplane::run::parse_scene(file, text.into(), &settings)
 }
 
 /// The strip's upper.geo declares 12 edges and an order, lower.geo an order.

@@ -5,11 +5,13 @@
 mod folder;
 pub mod point;
 mod prepare;
+mod presets;
 mod results;
 mod shared;
 mod summary;
 
 pub use prepare::{Prepared, mesh, prepare};
+pub use presets::{parse_scene, read_scene};
 pub use shared::Shared;
 
 use results::Results;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use nalgebra::Vector2;
 
+use super::presets::read_scene;
 use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
 use crate::law::{Integration, Law, State};
-use crate::scene;
 
 /// Rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Vec<PathRow>, Option<Error>);
@@ -20,7 +20,7 @@ pub fn drive(
     path: &Path,
     integration: Option<Integration>,
 ) -> Result<Driven> {
-    let scene = scene::read(scene, settings)?;
+    let scene = read_scene(scene, settings)?;
     let Some(interface) = scene.interfaces.get(name) else {
         let help = name_help(name, scene.interfaces.keys().map(String::as_str));
         return Err(scene.source.error_at(&["interfaces"], format!("no interface \"{name}\""), help));

@@ -5,13 +5,14 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::folder::Folder;
+use super::presets::read_scene;
 use super::shared::{Shared, interfaces_key};
 use super::{Event, Listener, Options};
 use crate::error::Result;
 use crate::history::Clock;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::problem::{Problem, subdomain_meshes};
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 
 /// A scene that is ready to be solved.
 #[derive(Debug)]
@@ -95,7 +96,7 @@ struct Ready {
 fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<Ready> {
     let mut clock = Clock::new("read scene");
     listen(Event::Began(clock.now()));
-    let scene = scene::read(&options.scene, &options.settings)?;
+    let scene = read_scene(&options.scene, &options.settings)?;
     let name = scene_name(&scene.source.file);
     let out = options.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
     clock.begin("mesh");

@@ -1,4 +1,4 @@
-//! The door: text to scene, every refusal with its line and key.
+//! Validation: text to scene, every error with its line and key.
 
 use std::path::{Path, PathBuf};
 
@@ -6,19 +6,28 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
-use super::accuracy;
-use super::{Scene, Source, expression::Expression, set};
+use super::{Accuracy, Scene, Source, expression::Expression, set};
 use crate::error::{At, Error, Result, name_help};
 
-/// Reads a scene file, or the `scene.json` of a folder, applies `--set` settings and checks it.
-pub fn read(path: &Path, settings: &[String]) -> Result<Scene> {
+/// Reads a scene file, or the `scene.json` of a folder, applies its preset and `--set` settings and checks it. `preset` changes
+/// the document to a preset.
+pub fn read(
+    path: &Path,
+    settings: &[String],
+    preset: impl FnOnce(&mut Value, &Source, Accuracy) -> Result<()>,
+) -> Result<Scene> {
     let file: PathBuf = if path.is_dir() { path.join("scene.json") } else { path.into() };
     let text = std::fs::read_to_string(&file).map_err(Error::io("read", &file))?;
-    parse(file, text, settings)
+    parse(file, text, settings, preset)
 }
 
 /// Reads a scene from its text; `file` is for messages and for the files it names.
-pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
+pub fn parse(
+    file: PathBuf,
+    text: String,
+    settings: &[String],
+    preset: impl FnOnce(&mut Value, &Source, Accuracy) -> Result<()>,
+) -> Result<Scene> {
     let set_all = |value: &mut Value, source: &Source| {
         settings.iter().try_for_each(|setting| set::apply(value, setting, &source.file))
     };
@@ -28,7 +37,7 @@ pub fn parse(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> 
         set_all(&mut wanted, source)?;
         let accuracy = wanted.get("accuracy").cloned().and_then(|name| serde_json::from_value(name).ok());
         if let Some(accuracy) = accuracy {
-            accuracy::apply(value, source, accuracy)?;
+            preset(value, source, accuracy)?;
         }
         set_all(value, source)
     };
@@ -129,6 +138,10 @@ fn explain(message: &str, noun: &str) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn parsed(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
+        parse(file, text, settings, |_, _, _| Ok(()))
+    }
     use crate::scene::Place;
 
     const SCENE: &str = r#"{
@@ -154,12 +167,12 @@ mod tests {
 
     fn refusal(from: &str, to: &str) -> String {
         assert!(SCENE.contains(from), "{from}");
-        parse("scene.json".into(), SCENE.replacen(from, to, 1), &[]).unwrap_err().to_string()
+        parsed("scene.json".into(), SCENE.replacen(from, to, 1), &[]).unwrap_err().to_string()
     }
 
     #[test]
     fn a_good_scene_is_read() {
-        let scene = parse("scene.json".into(), SCENE.into(), &["thickness=0.5".into()]).unwrap();
+        let scene = parsed("scene.json".into(), SCENE.into(), &["thickness=0.5".into()]).unwrap();
         assert_eq!(scene.thickness, 0.5);
         assert_eq!(scene.interfaces["joint"].sides().unwrap()[1].names(), ["upper.bottom"]);
         assert_eq!(scene.steps[0].increments, 1);
@@ -240,7 +253,7 @@ mod tests {
     #[test]
     fn a_wrong_formula_is_underlined_where_it_is_wrong() {
         let text = SCENE.replace("-1.0]", "\"2*(x+ß)\"]");
-        let Err(Error::Text { at, .. }) = parse("scene.json".into(), text.clone(), &[]) else {
+        let Err(Error::Text { at, .. }) = parsed("scene.json".into(), text.clone(), &[]) else {
             panic!("accepted");
         };
         assert_eq!(&text[at.span], "ß");
@@ -278,11 +291,11 @@ mod tests {
     #[test]
     fn no_text_makes_the_door_panic() {
         for n in 0..SCENE.len() {
-            let _ = parse("scene.json".into(), SCENE[..n].to_string(), &[]);
-            let _ = parse("scene.json".into(), format!("{}é{}", &SCENE[..n], &SCENE[n + 1..]), &[]);
+            let _ = parsed("scene.json".into(), SCENE[..n].to_string(), &[]);
+            let _ = parsed("scene.json".into(), format!("{}é{}", &SCENE[..n], &SCENE[n + 1..]), &[]);
         }
         for text in ["", "[]", "null", "{}", "\u{feff}{}"] {
-            assert!(parse("scene.json".into(), text.into(), &[]).is_err());
+            assert!(parsed("scene.json".into(), text.into(), &[]).is_err());
         }
     }
 }

@@ -9,9 +9,9 @@ use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
 use crate::error::{Error, Result, name_help};
 use crate::mesh;
-use crate::run::Shared;
+use crate::run::{Shared, read_scene};
 use crate::scene::probe::Probe;
-use crate::scene::{self, Scene, Source, document};
+use crate::scene::{Scene, Source, document};
 
 /// A study with its points.
 #[derive(Debug)]
@@ -62,14 +62,14 @@ impl StudyPlan {
                 points.push(StudyPoint { values: vec![serde_json::Value::Null; study.axes.len()], settings });
             }
         }
-        let plain = scene::read(&scene, &[])?;
+        let plain = read_scene(&scene, &[])?;
         check_measures(&study, &source, &plain)?;
         for point in &mut points {
             point.settings.extend(probes(&study, &plain));
         }
         let wanted = |k: usize| only.is_none_or(|only| only == k);
         let keys = points.iter().enumerate().map(|(k, point)| match wanted(k) {
-            true => scene::read(&scene, &point.settings).map(|scene| key(&study, point, &scene)),
+            true => read_scene(&scene, &point.settings).map(|scene| key(&study, point, &scene)),
             false => Ok(None),
         });
         let keys = keys.collect::<Result<Vec<Option<String>>>>()?;

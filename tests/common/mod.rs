@@ -5,7 +5,6 @@ use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};
 use midplane::mesh::{Cells, Edge, Group, Mesh};
 use midplane::problem::Problem;
-use midplane::scene;
 use midplane::shape::Shape;
 
 /// n + 1 equally spaced places from `start` to `end`.
@@ -123,7 +122,7 @@ pub fn rotation(degrees: f64) -> impl Fn(f64, f64) -> [f64; 2] + Copy {
 
 /// Binds a scene text to meshes.
 pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
-    let scene = scene::parse("scene.json".into(), text.into(), &[])?;
+    let scene = midplane::run::parse_scene("scene.json".into(), text.into(), &[])?;
     Problem::bind(&scene, meshes)
 }
 
