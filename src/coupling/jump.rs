@@ -18,9 +18,10 @@
 //! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
-use super::midplane::{Midplane, MidplanePoint};
-use super::segment::Segment;
-use super::{Chain, vector::*};
+use super::Chain;
+use super::line::midplane::{Midplane, MidplanePoint};
+use super::line::segment::Segment;
+use crate::shape::vector::*;
 
 /// Faces closer than this coincide. Of the common length.
 const COINCIDENT: f64 = 1e-14;

@@ -16,27 +16,17 @@
 //! coefficients (M = I, N = I). `projected` carries the jump on a grid of the mid-plane, as fine as the locally coarser
 //! side, and projects in L2; a matched interface is the classical zero-thickness element in both.
 
-mod angle;
-mod chain;
-mod faults;
-mod grid;
 mod jump;
-mod link;
-mod midplane;
-mod pair;
-mod parts;
+mod line;
 mod pointwise;
 mod projected;
-mod seam;
-mod segment;
-mod vector;
 mod view;
 
-pub use chain::{Chain, Run};
-pub use link::Side;
-pub use midplane::{Midplane, MidplanePoint};
-pub use parts::join;
-pub use segment::{Piece, Segment};
+pub use line::chain::{Chain, Run};
+pub use line::link::Side;
+pub use line::midplane::{Midplane, MidplanePoint};
+pub use line::parts::join;
+pub use line::segment::{Piece, Segment};
 pub use view::SegmentView;
 
 use crate::error::Result;

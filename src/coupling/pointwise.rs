@@ -3,8 +3,8 @@
 //! K = ∫_C [B_A B_B]ᵀ D [B_A B_B] dL with B_A at ξ_A(ξ_C) and B_B at ξ_B(ξ_C). The jumps at the points are the
 //! coefficients: M = I, N = I.
 
-use super::vector::dot;
 use super::{Coupling, LawPoint, Midplane, Points, jump};
+use crate::shape::vector::dot;
 use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule};
 use crate::sparse::Csr;
 

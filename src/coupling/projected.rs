@@ -8,8 +8,9 @@
 //! have quadratic edges and it is asked for, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
 
-use super::vector::dot;
-use super::{Coupling, LawPoint, Midplane, Points, grid, jump, pointwise};
+use super::line::grid;
+use super::{Coupling, LawPoint, Midplane, Points, jump, pointwise};
+use crate::shape::vector::dot;
 use crate::shape::{GAUSS_2, GAUSS_3, lagrange2, lagrange3};
 use crate::sparse::{Banded, Csr};
 

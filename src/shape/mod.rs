@@ -6,6 +6,7 @@ mod line;
 mod quadrilateral;
 mod rule;
 mod triangle;
+pub mod vector;
 
 pub use line::{Line2, Line3, lagrange2, lagrange3};
 pub use rule::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Rule};

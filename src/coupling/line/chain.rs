@@ -5,8 +5,8 @@
 //! ```
 
 use super::link::{self, Corner, Link, Orientation, Side};
-use super::vector::*;
 use crate::error::Result;
+use crate::shape::vector::*;
 use crate::shape::{lagrange2, lagrange3};
 
 /// The edges of a side in order, run after run.
@@ -23,7 +23,7 @@ pub struct Chain {
     /// The connected lines of edges.
     pub runs: Vec<Run>,
     /// For every edge end whether the geometry may be kinked there.
-    pub(super) corners: Vec<Corner>,
+    pub(in crate::coupling) corners: Vec<Corner>,
 }
 
 /// Edges that follow each other.
@@ -37,7 +37,7 @@ pub struct Run {
 
 impl Chain {
     /// Orders the edges of a side, coordinates from `origin`.
-    pub(super) fn order(
+    pub(in crate::coupling) fn order(
         interface: &str,
         curves: &[Side],
         subdomain: Orientation,
@@ -110,7 +110,7 @@ impl Chain {
     }
 
     /// The same edges walked the other way.
-    pub(super) fn reversed(&self) -> Chain {
+    pub(in crate::coupling) fn reversed(&self) -> Chain {
         let mut chain = self.clone();
         for run in &chain.runs {
             chain.ends[run.edges.clone()].reverse();
@@ -126,13 +126,13 @@ impl Chain {
     }
 
     /// Places in `nodes` of an edge's start, end and, if it is quadratic, mid-node.
-    pub(super) fn edge(&self, e: usize) -> impl Iterator<Item = usize> {
+    pub(in crate::coupling) fn edge(&self, e: usize) -> impl Iterator<Item = usize> {
         let [start, end] = self.ends[e];
         [Some(start), Some(end), self.mids[e]].into_iter().flatten()
     }
 
     /// True if every edge has a mid-node.
-    pub(super) fn is_quadratic(&self) -> bool {
+    pub(in crate::coupling) fn is_quadratic(&self) -> bool {
         self.mids.iter().all(Option::is_some)
     }
 
@@ -143,7 +143,7 @@ impl Chain {
     }
 
     /// Shape functions of an edge and their derivatives at ξ: start, end, mid-node.
-    pub(super) fn functions(&self, e: usize, xi: f64) -> ([f64; 3], [f64; 3]) {
+    pub(in crate::coupling) fn functions(&self, e: usize, xi: f64) -> ([f64; 3], [f64; 3]) {
         if self.mids[e].is_some() {
             return lagrange3(xi);
         }
@@ -152,12 +152,12 @@ impl Chain {
     }
 
     /// The point of an edge at ξ.
-    pub(super) fn point(&self, e: usize, xi: f64) -> [f64; 2] {
+    pub(in crate::coupling) fn point(&self, e: usize, xi: f64) -> [f64; 2] {
         self.combine(e, self.functions(e, xi).0)
     }
 
     /// dx/dξ of an edge at ξ.
-    pub(super) fn derivative(&self, e: usize, xi: f64) -> [f64; 2] {
+    pub(in crate::coupling) fn derivative(&self, e: usize, xi: f64) -> [f64; 2] {
         self.combine(e, self.functions(e, xi).1)
     }
 

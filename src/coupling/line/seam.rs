@@ -7,7 +7,7 @@ use super::Midplane;
 const SAME: f64 = 1e-9;
 
 /// Turns every closed piece so that it starts there.
-pub(super) fn turn_closed(c: &mut Midplane) {
+pub(in crate::coupling) fn turn_closed(c: &mut Midplane) {
     for piece in c.pieces.clone() {
         if piece.closed {
             let first = start(c, piece.segments.clone());

@@ -3,9 +3,9 @@
 use super::angle::Angles;
 use super::link::names;
 use super::segment::{CommonStretch, FACING};
-use super::vector::*;
 use super::{Midplane, Side};
 use crate::error::Error;
+use crate::shape::vector::*;
 
 const FACE: &str = "turn or move one of the parts, so that the curves lie on each other";
 
@@ -18,7 +18,7 @@ fn error_at(name: &str, what: String, help: &str) -> Error {
 }
 
 /// The sides of a part are too far apart.
-pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &CommonStretch) -> Error {
+pub(in crate::coupling) fn apart(name: &str, sides: [&[Side]; 2], part: &CommonStretch) -> Error {
     let (_, gap, [x, y]) = part.worst;
     let kind = if gap > 0.0 { "gap" } else { "overlap" };
     let what = format!(
@@ -34,13 +34,13 @@ pub(super) fn apart(name: &str, sides: [&[Side]; 2], part: &CommonStretch) -> Er
 }
 
 /// The sides face the same way.
-pub(super) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
+pub(in crate::coupling) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
     let what = format!("{} do not face each other: their bodies lie on the same side", both(sides));
     error_at(name, what, FACE)
 }
 
 /// No part lies on the other side: the sides lie beside each other.
-pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> Error {
+pub(in crate::coupling) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> Error {
     // the lines start and end where the sides come closest
     let ends = |chain: &super::Chain, angles: &Angles| -> Vec<[f64; 2]> {
         let of_line = |line: &super::angle::SmoothLine| {
@@ -72,7 +72,13 @@ pub(super) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> E
 }
 
 /// An edge faces two curves at one place.
-pub(super) fn twice(name: &str, sides: [&[Side]; 2], c: &Midplane, side: usize, edge: usize) -> Error {
+pub(in crate::coupling) fn twice(
+    name: &str,
+    sides: [&[Side]; 2],
+    c: &Midplane,
+    side: usize,
+    edge: usize,
+) -> Error {
     let chain = if side == 0 { &c.a } else { &c.b };
     let [x, y] = plus(chain.point(edge, 0.0), c.origin);
     let what = format!(

@@ -10,8 +10,9 @@
 //! derivative on a curved quadratic one. Between its nodes an edge interpolates the angles. At a kink every edge keeps an
 //! end angle of its own.
 
+use super::Chain;
 use super::link::Corner;
-use super::{Chain, vector::*};
+use crate::shape::vector::*;
 
 /// A kink turns by more than this times what its neighbours turn by on average ...
 const SHARPER: f64 = 2.0;
@@ -26,7 +27,7 @@ const SPECK: f64 = 1e-6;
 
 /// Directions of a side.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Angles {
+pub(in crate::coupling) struct Angles {
     /// Tangent angle of every edge at its start, end and middle [rad].
     pub of_edge: Vec<[f64; 3]>,
     /// Unit tangent of every edge there.
@@ -43,7 +44,7 @@ pub(super) struct Angles {
 
 /// Edges that follow each other without a kink.
 #[derive(Debug, Clone)]
-pub(super) struct SmoothLine {
+pub(in crate::coupling) struct SmoothLine {
     /// Numbers of the edges, in order.
     pub edges: Vec<usize>,
     /// True if the last edge ends where the first one starts.
@@ -52,7 +53,7 @@ pub(super) struct SmoothLine {
 
 impl Angles {
     /// Finds kinks and angles of a chain.
-    pub(super) fn new(chain: &Chain) -> Angles {
+    pub(in crate::coupling) fn new(chain: &Chain) -> Angles {
         let own: Vec<[f64; 3]> = (0..chain.edges()).map(|e| own(chain, e)).collect();
         let mut angles = Angles { of_edge: own.clone(), ..Angles::default() };
         for run in &chain.runs {
@@ -98,7 +99,7 @@ impl Angles {
 
     /// From a straight edge at ξ to the curve that its nodes lie on: the cubic through both with their directions.
     /// Nothing on a quadratic edge, which follows the curve itself.
-    pub(super) fn to_curve(&self, chain: &Chain, e: usize, xi: f64) -> [f64; 2] {
+    pub(in crate::coupling) fn to_curve(&self, chain: &Chain, e: usize, xi: f64) -> [f64; 2] {
         let [first, last] = self.deviation[e];
         if chain.mids[e].is_some() || first == 0.0 && last == 0.0 {
             return [0.0; 2];
@@ -110,7 +111,7 @@ impl Angles {
     }
 
     /// Unit tangent of an edge at ξ: along the parabola through the three, exactly the common value where they agree.
-    pub(super) fn tangent(&self, e: usize, xi: f64) -> [f64; 2] {
+    pub(in crate::coupling) fn tangent(&self, e: usize, xi: f64) -> [f64; 2] {
         let [start, end, mid] = self.tangents[e];
         if xi == 1.0 {
             return end;

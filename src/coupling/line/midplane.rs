@@ -7,8 +7,8 @@
 use super::Chain;
 use super::angle::Angles;
 use super::segment::{Piece, Segment};
-use super::vector::*;
 use crate::shape::GAUSS_3;
+use crate::shape::vector::*;
 
 /// The mid-plane of two sides.
 #[derive(Debug, Clone)]
@@ -33,7 +33,7 @@ pub struct Midplane {
     pub segments: Vec<Segment>,
     /// The smooth pieces of C.
     pub pieces: Vec<Piece>,
-    pub(super) angles: [Angles; 2],
+    pub(in crate::coupling) angles: [Angles; 2],
 }
 
 /// A place on C.
@@ -81,7 +81,7 @@ impl Midplane {
     }
 
     /// Length of a segment: ∫ |dC/dη| dη [length].
-    pub(super) fn measure(&self, segment: usize) -> f64 {
+    pub(in crate::coupling) fn measure(&self, segment: usize) -> f64 {
         let g = &self.segments[segment];
         let speed = |eta: f64| norm(self.along(g, eta).2);
         if self.a.mids[g.edge_a].is_none() && self.b.mids[g.edge_b].is_none() {
@@ -107,7 +107,7 @@ impl Midplane {
     }
 
     /// Arc lengths of start and end of a piece.
-    pub(super) fn span(&self, piece: &Piece) -> [f64; 2] {
+    pub(in crate::coupling) fn span(&self, piece: &Piece) -> [f64; 2] {
         [self.segments[piece.segments.start].start, self.segments[piece.segments.end - 1].end]
     }
 }

@@ -8,9 +8,9 @@ use super::angle::Angles;
 use super::link::Orientation;
 use super::pair::{Face, starts, walk};
 use super::segment::{CommonStretch, FACING, LinePoint, Piece, Segment};
-use super::vector::*;
 use super::{Chain, Gap, Midplane, Side, faults, seam};
 use crate::error::Result;
+use crate::shape::vector::*;
 
 /// Faces with a gap may lie this far apart. Of the shorter line.
 const OPEN: f64 = 0.25;

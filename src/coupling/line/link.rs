@@ -21,7 +21,7 @@ pub struct Side<'a> {
 
 /// What is known about a node of a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Corner {
+pub(in crate::coupling) enum Corner {
     /// It lies on a point of the geometry.
     Yes,
     /// It does not.
@@ -31,7 +31,7 @@ pub(super) enum Corner {
 }
 
 /// An edge on its way into a chain.
-pub(super) struct Link {
+pub(in crate::coupling) struct Link {
     /// Node of the model.
     pub start: usize,
     /// Node of the model.
@@ -46,7 +46,7 @@ pub(super) struct Link {
 
 /// Which way a chain runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Orientation {
+pub(in crate::coupling) enum Orientation {
     /// As the mesh gives it: the body on the left of the chain.
     Left,
     /// The other way: the body on the right.
@@ -54,7 +54,7 @@ pub(super) enum Orientation {
 }
 
 /// The edges of a side by start node; no two start or end at one.
-pub(super) fn sorted(
+pub(in crate::coupling) fn sorted(
     interface: &str,
     curves: &[Side],
     subdomain: Orientation,
@@ -88,7 +88,7 @@ pub(super) fn sorted(
 }
 
 /// The link that starts where link `i` ends, or their number if none does.
-pub(super) fn next(links: &[Link], i: usize) -> usize {
+pub(in crate::coupling) fn next(links: &[Link], i: usize) -> usize {
     let end = links[i].end;
     let starts = |j: usize| links.get(j).is_some_and(|link| link.start == end);
     // nodes of a curve are mostly numbered in a row
@@ -100,7 +100,7 @@ pub(super) fn next(links: &[Link], i: usize) -> usize {
 }
 
 /// Names of the curves of a side, for messages.
-pub(super) fn names(curves: &[Side]) -> String {
+pub(in crate::coupling) fn names(curves: &[Side]) -> String {
     curves.iter().map(|curve| curve.name).collect::<Vec<_>>().join(", ")
 }
 

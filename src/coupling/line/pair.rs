@@ -9,16 +9,17 @@
 //! The condition is the same seen from A and from B, and it orders all pairs along C, so that nodes of either side come
 //! in one order. Two lines are walked together from where one of them starts: linear in their edges.
 
+use super::Chain;
 use super::angle::{Angles, SmoothLine};
 use super::segment::{LinePoint, Segment};
-use super::{Chain, vector::*};
+use crate::shape::vector::*;
 
 /// Places are found to within this. Of the distance within which nodes are one, so that rounding is all that is left.
 const FINE: f64 = 1e-3;
 
 /// A side with its directions.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Face<'a> {
+pub(in crate::coupling) struct Face<'a> {
     pub chain: &'a Chain,
     pub angles: &'a Angles,
 }
@@ -43,7 +44,7 @@ fn ahead(a: TangentPoint, b: TangentPoint) -> f64 {
 
 /// Starts of the common parts of two lines: pairs of places at which one of the lines starts. `merge` is the distance
 /// within which nodes are one [length].
-pub(super) fn starts(
+pub(in crate::coupling) fn starts(
     a: Face,
     line_a: &SmoothLine,
     b: Face,
@@ -98,7 +99,7 @@ fn facing(face: Face, line: &SmoothLine, spot: TangentPoint, sign: f64, merge: f
 }
 
 /// Walks both lines from a pair of places to the first end, node by node. Arc lengths are left at zero.
-pub(super) fn walk(
+pub(in crate::coupling) fn walk(
     a: Face,
     line_a: &SmoothLine,
     b: Face,

@@ -4,8 +4,9 @@
 //! each side, so there are at most min(edges A, edges B) cells. The walk starts where the first edges are longer, so
 //! that neither labels nor file order matter; on a tie at the end with smaller x, then y.
 
+use super::Midplane;
 use super::segment::Piece;
-use super::{Midplane, vector::*};
+use crate::shape::vector::*;
 
 /// "After" means farther than this. Of the length of the piece.
 const AFTER: f64 = 1e-9;
@@ -18,7 +19,7 @@ struct SideNode {
 }
 
 /// Arc lengths of the grid's nodes on a piece, ascending, from its start to its end.
-pub(super) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
+pub(in crate::coupling) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
     let segments = &c.segments[piece.segments.clone()];
     let [start, end] = c.span(piece);
     let length = end - start;

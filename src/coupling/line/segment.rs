@@ -1,7 +1,7 @@
 //! Segments of C, what they are cut from, and the pieces that they make.
 
 /// Faces without a gap may lie this far apart, beyond what chords of one curve do. Of the shorter line.
-pub(super) const FACING: f64 = 1e-3;
+pub(in crate::coupling) const FACING: f64 = 1e-3;
 
 /// A part of C with its parents.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,13 +33,13 @@ pub struct Piece {
 
 /// A place on a line: number of the edge in the line, ξ on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LinePoint {
+pub(in crate::coupling) struct LinePoint {
     pub i: usize,
     pub xi: f64,
 }
 
 /// A common part of two lines.
-pub(super) struct CommonStretch {
+pub(in crate::coupling) struct CommonStretch {
     pub segments: Vec<Segment>,
     /// Place in the order along A.
     pub order: (usize, LinePoint),
