@@ -62,8 +62,8 @@ impl Line {
         } else {
             (&self.points_a, &self.points_b, a, b)
         };
-        let of_a = c.nodes_a.iter().flat_map(|&node| f(first[node]));
-        let of_b = c.nodes_b.iter().flat_map(|&node| g(second[node]));
+        let of_a = c.sides[0].nodes.iter().flat_map(|&node| f(first[node]));
+        let of_b = c.sides[1].nodes.iter().flat_map(|&node| g(second[node]));
         of_a.chain(of_b).collect()
     }
 }
@@ -164,7 +164,7 @@ fn matched_sides_are_the_classical_element_entry_by_entry() {
                 }
             }
             let along = |nodes: &[usize]| nodes.windows(2).all(|w| w[0] < w[1]);
-            assert!(along(&coupling.nodes_a) && along(&coupling.nodes_b));
+            assert!(along(&coupling.sides[0].nodes) && along(&coupling.sides[1].nodes));
             for i in 0..4 * n {
                 for j in 0..4 * n {
                     assert!(
@@ -191,7 +191,8 @@ fn constant_and_linear_jumps_are_reproduced() {
                 let c = line.couple(kind, Points::Gauss);
                 let got = jumps(&c, &line.displacements(&c, false, &a, &b));
                 for (point, jump) in c.points.iter().zip(got) {
-                    let (ua, ub) = (a(point.position), b(point.position));
+                    let [x, y, _] = point.position;
+                    let (ua, ub) = (a([x, y]), b([x, y]));
                     for m in 0..2 {
                         let exact: f64 = (0..2).map(|d| point.rotation[m][d] * (ub[d] - ua[d])).sum();
                         assert!((jump[m] - exact).abs() < 1e-15, "{kind:?} {n_a}:{n_b} {degrees}°");
@@ -199,7 +200,7 @@ fn constant_and_linear_jumps_are_reproduced() {
                 }
                 let length: f64 = c.points.iter().map(|p| p.weight).sum();
                 assert!((length / 2.0 - 1.0).abs() < 1e-14);
-                let segments: f64 = c.midplane.segments.iter().map(|g| g.end - g.start).sum();
+                let segments: f64 = c.midplane.segments.iter().map(|g| g.s[1] - g.s[0]).sum();
                 assert!((segments / 2.0 - 1.0).abs() < 1e-14);
             }
         }
@@ -232,18 +233,20 @@ fn the_grid_is_as_fine_as_the_locally_coarser_side() {
     let fine = even(0.0, 1.0, 40);
     let coarse = graded(0.0, 1.0, 7, 3.0);
     let c = Line::new(&fine, &coarse, 0.0, 0.0).couple(JumpScheme::Projected, Points::Gauss);
-    assert!(c.grid.len() <= coarse.len());
+    assert!(c.midplane.grid_nodes <= coarse.len());
     for (n_a, n_b) in DENSITIES {
         let c = Line::new(&even(0.0, 1.0, n_a), &even(0.0, 1.0, n_b), 0.0, 0.0)
             .couple(JumpScheme::Projected, Points::Gauss);
-        assert!(c.grid.len() - 1 <= n_a.min(n_b), "{n_a}:{n_b}");
+        assert!(c.midplane.grid_nodes - 1 <= n_a.min(n_b), "{n_a}:{n_b}");
     }
     // nested: every node of the coarse side is a node of the fine one, so the grid is the coarse side
     let c = Line::new(&even(0.0, 1.0, 40), &even(0.0, 1.0, 5), 0.0, 0.0)
         .couple(JumpScheme::Projected, Points::Gauss);
-    for (got, exact) in c.grid.iter().zip(even(0.0, 1.0, 5)) {
-        assert!((got - exact).abs() < 1e-15);
+    let ends = c.midplane.cells.iter().map(|cell| cell.s);
+    for (got, exact) in ends.zip(even(0.0, 1.0, 5).windows(2)) {
+        assert!((got[0] - exact[0]).abs() < 1e-15 && (got[1] - exact[1]).abs() < 1e-15);
     }
+    assert_eq!(c.midplane.cells.len(), 5);
     // on a part of the length only the common part is joined
     let c = Line::new(&even(0.0, 1.0, 10), &even(0.3, 1.7, 9), 0.0, 0.0)
         .couple(JumpScheme::Projected, Points::Gauss);
@@ -294,7 +297,7 @@ proptest! {
             prop_assert!(c.points.iter().all(|p| p.weight > 0.0));
             prop_assert!((c.points.iter().map(|p| p.weight).sum::<f64>() - 2.0).abs() < 1e-13);
             prop_assert!(c.points.windows(2).all(|w| w[0].s < w[1].s));
-            prop_assert!(c.grid.len() <= s_a.len().min(s_b.len()));
+            prop_assert!(c.midplane.grid_nodes <= s_a.len().min(s_b.len()));
         }
     }
 }
@@ -357,8 +360,8 @@ fn columns(
     f: impl Fn(f64) -> f64,
     g: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
-    let of_a = c.nodes_a.iter().flat_map(|&i| [0.0, f(a[i][0])]);
-    of_a.chain(c.nodes_b.iter().flat_map(|&i| [0.0, g(b[i][0])])).collect()
+    let of_a = c.sides[0].nodes.iter().flat_map(|&i| [0.0, f(a[i][0])]);
+    of_a.chain(c.sides[1].nodes.iter().flat_map(|&i| [0.0, g(b[i][0])])).collect()
 }
 
 /// Claim: on matched quadratic sides both couplings are the six-node element with three Gauss (or Lobatto) points.
@@ -416,7 +419,7 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
                 assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
             }
             if kind == JumpScheme::Projected {
-                assert_eq!(c.points.len(), 3 * (c.grid.len() - 1));
+                assert_eq!(c.points.len(), 3 * (c.midplane.grid_nodes - 1));
             }
             let mixed = couple(&a, &straight, kind, Points::Gauss);
             let (f, g) = (|x: f64| 0.1 - x, |x: f64| 0.3 * x);
@@ -426,7 +429,7 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
                 assert!((jump[0] - (g(point.position[0]) - f(point.position[0]))).abs() < 1e-13, "{kind:?}");
             }
             if kind == JumpScheme::Projected {
-                assert_eq!(mixed.points.len(), 2 * (mixed.grid.len() - 1));
+                assert_eq!(mixed.points.len(), 2 * (mixed.midplane.grid_nodes - 1));
             }
         }
     }

@@ -219,11 +219,11 @@ proptest! {
             prop_assert!(c.points.iter().all(|p| p.weight > 0.0));
             let sum: f64 = c.points.iter().map(|p| p.weight).sum();
             prop_assert!((sum / c.midplane.length - 1.0).abs() < 1e-13);
-            prop_assert!(c.midplane.segments.iter().all(|g| g.end > g.start));
-            prop_assert!(c.midplane.segments.windows(2).all(|g| g[0].end == g[1].start));
+            prop_assert!(c.midplane.segments.iter().all(|g| g.s[1] > g.s[0]));
+            prop_assert!(c.midplane.segments.windows(2).all(|g| g[0].s[1] == g[1].s[0]));
             prop_assert!(c.midplane.joined.iter().all(|share| (share - 1.0).abs() < 0.02), "{:?}", c.midplane.joined);
             let least = a.edges.len().min(b.edges.len());
-            prop_assert!(c.grid.len() <= least + c.midplane.pieces.len(), "{} of {least}", c.grid.len());
+            prop_assert!(c.midplane.grid_nodes <= least + c.midplane.pieces.len(), "{} of {least}", c.midplane.grid_nodes);
         }
     }
 }

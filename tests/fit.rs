@@ -35,7 +35,7 @@ fn scene(plane: &str, sides: [&str; 2], gap: &str, step: &str) -> String {
 /// Position and normal traction at all law points of the interface.
 fn pressures<'a>(problem: &'a Problem, state: &'a ModelState) -> impl Iterator<Item = ([f64; 2], f64)> + 'a {
     let points = problem.model.interfaces[0].coupling.points.iter();
-    points.zip(&state.snapshot.tractions[0]).map(|(point, t)| (point.position, t[0]))
+    points.zip(&state.snapshot.tractions[0]).map(|(point, t)| ([point.position[0], point.position[1]], t[0]))
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn errors(problem: &Problem, state: &ModelState, exact: &Round) -> [f64; 2] {
     }
     let mut traction = [0.0; 2];
     for (point, t) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.tractions[0]) {
-        let [x, y] = point.position;
+        let [x, y, _] = point.position;
         let r2 = x * x + y * y;
         let (c2, s2) = ((x * x - y * y) / r2, 2.0 * x * y / r2);
         let (n, s) = (exact.normal[0] + exact.normal[1] * c2, -exact.shear[0] - exact.shear[1] * s2);

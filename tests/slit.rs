@@ -36,7 +36,7 @@ fn solved(inside: [usize; 2], k: f64, supports: &str, loads: &str) -> (Problem, 
     );
     let problem = bind(&text, vec![mesh]).unwrap();
     let segments = &problem.model.interfaces[0].coupling.midplane.segments;
-    assert!((segments.iter().map(|g| g.end - g.start).sum::<f64>() - 0.4).abs() < 1e-15);
+    assert!((segments.iter().map(|g| g.s[1] - g.s[0]).sum::<f64>() - 0.4).abs() < 1e-15);
     let state = solve(&problem).0.remove(0);
     (problem, state)
 }

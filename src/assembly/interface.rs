@@ -5,7 +5,7 @@ use crate::sparse::Csr;
 
 /// Directions that differ by no more than this are one.
 const STRAIGHT: f64 = 8.0 * f64::EPSILON;
-const IDENTITY: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// A coupling whose columns are dofs of the model.
 #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ pub struct InterfaceOperator {
     /// G on global dofs, in the axes of `turned`.
     pub(super) jump: Csr,
     /// The common n and t of a straight interface, in which its jump coefficients are then given; else they are in x, y.
-    turned: Option<[[f64; 2]; 2]>,
+    turned: Option<[[f64; 3]; 3]>,
     thickness: f64,
 }
 
@@ -34,15 +34,15 @@ impl InterfaceOperator {
         thickness: f64,
     ) -> InterfaceOperator {
         let c = coupling.components;
-        let nodes_a = coupling.nodes_a.iter().map(|&node| first[0] + node);
-        let nodes_b = coupling.nodes_b.iter().map(|&node| first[1] + node);
+        let nodes_a = coupling.sides[0].nodes.iter().map(|&node| first[0] + node);
+        let nodes_b = coupling.sides[1].nodes.iter().map(|&node| first[1] + node);
         let nodes: Vec<usize> = nodes_a.chain(nodes_b).collect();
         let turned = common_axes(&coupling);
         let axes = turned.unwrap_or(IDENTITY);
         let mut entries = Vec::with_capacity(coupling.jump.values.len());
         for i in 0..coupling.jump.rows() {
             let (columns, values) = coupling.jump.row(i);
-            for (a, axis) in axes.iter().enumerate().filter(|(_, axis)| axis[i % c] != 0.0) {
+            for (a, axis) in axes.iter().take(c).enumerate().filter(|(_, axis)| axis[i % c] != 0.0) {
                 let dof = |j: usize| c * nodes[j / c] + j % c;
                 let turn = |(&j, &value): (&usize, &f64)| (i - i % c + a, dof(j), axis[i % c] * value);
                 entries.extend(columns.iter().zip(values).map(turn));
@@ -53,7 +53,7 @@ impl InterfaceOperator {
     }
 
     /// R of a law point on the jump coefficients as they are given.
-    pub(super) fn rotation(&self, point: &LawPoint) -> [[f64; 2]; 2] {
+    pub(super) fn rotation(&self, point: &LawPoint) -> [[f64; 3]; 3] {
         if self.turned.is_some() { IDENTITY } else { point.rotation }
     }
 
@@ -73,7 +73,7 @@ impl InterfaceOperator {
         let mut jumps = vec![0.0; c * self.coupling.points.len()];
         for (point, jump) in self.coupling.points.iter().zip(jumps.chunks_exact_mut(c)) {
             for (row, jump) in self.rotation(point).iter().zip(jump) {
-                for (i, n) in point.interpolation {
+                for &(i, n) in &point.interpolation {
                     let a = &coefficients[c * i..c * (i + 1)];
                     *jump += n * row.iter().zip(a).map(|(r, a)| r * a).sum::<f64>();
                 }
@@ -87,7 +87,7 @@ impl InterfaceOperator {
         let c = self.coupling.components;
         let mut q = vec![0.0; self.jump.rows()];
         for (point, traction) in self.coupling.points.iter().zip(tractions.chunks_exact(c)) {
-            for (i, n) in point.interpolation {
+            for &(i, n) in &point.interpolation {
                 for (row, t) in self.rotation(point).iter().zip(traction) {
                     for (q, r) in q[c * i..c * (i + 1)].iter_mut().zip(row) {
                         *q += self.thickness * point.weight * n * r * t;
@@ -139,7 +139,7 @@ impl InterfaceOperator {
 }
 
 /// n and t of the law points if they have them in common: stiff springs along one of them do not then reach into the other.
-fn common_axes(coupling: &Coupling) -> Option<[[f64; 2]; 2]> {
+fn common_axes(coupling: &Coupling) -> Option<[[f64; 3]; 3]> {
     let first = coupling.points.first()?.rotation;
     let same = |point: &LawPoint| {
         let pairs = point.rotation.as_flattened().iter().zip(first.as_flattened());

@@ -18,8 +18,8 @@ impl InterfaceTangent {
         let c = interface.coupling.components;
         let mut entries = Vec::new();
         let visit = |point: &crate::coupling::LawPoint, entry: &mut dyn FnMut(usize, usize, bool)| {
-            for (i, ni) in point.interpolation {
-                for (j, nj) in point.interpolation {
+            for &(i, ni) in &point.interpolation {
+                for &(j, nj) in &point.interpolation {
                     for a in 0..c {
                         for b in 0..c {
                             entry(c * i + a, c * j + b, ni != 0.0 && nj != 0.0);
@@ -54,8 +54,8 @@ impl InterfaceTangent {
         let mut places = self.places.iter();
         for (point, d) in interface.coupling.points.iter().zip(stiffness.chunks_exact(c * c)) {
             let r = interface.rotation(point);
-            for (_, ni) in point.interpolation {
-                for (_, nj) in point.interpolation {
+            for &(_, ni) in &point.interpolation {
+                for &(_, nj) in &point.interpolation {
                     let w = interface.thickness() * point.weight * ni * nj;
                     for a in 0..c {
                         for b in 0..c {

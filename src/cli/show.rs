@@ -172,7 +172,7 @@ fn increment(row: &HistoryRow, number: usize, of: usize, marks: &str) -> String 
 
 fn describe(interface: &InterfaceOperator) -> String {
     let coupling = &interface.coupling;
-    let [a, b] = [0, 1].map(|side| coupling.edges(side));
+    let [a, b] = [0, 1].map(|side| coupling.facets(side));
     format!(
         "joined   {:<12} {a}:{b} edges, {} segments, {} law points, length {:.6}",
         interface.name,

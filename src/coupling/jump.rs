@@ -18,10 +18,8 @@
 //! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
-use super::Chain;
-use super::line::midplane::{Midplane, MidplanePoint};
-use super::line::segment::Segment;
-use crate::shape::vector::*;
+use super::place::{Facets, OnFacet, Place, Table};
+use crate::shape::vector::norm;
 
 /// Faces closer than this coincide. Of the common length.
 const COINCIDENT: f64 = 1e-14;
@@ -39,28 +37,25 @@ pub(super) struct Entry {
     pub value: f64,
 }
 
-/// Calls `add` for every entry of the jump at a place of a segment.
-pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &MidplanePoint, mut add: impl FnMut(Entry)) {
-    let sides = [
-        OnEdge::new(&c.a, segment.edge_a, spot.xi_a, 0),
-        OnEdge::new(&c.b, segment.edge_b, spot.xi_b, c.a.nodes.len()),
-    ];
+/// Calls `add` for every entry of the jump at a place.
+pub(super) fn entries(table: &Table, place: &Place, components: usize, mut add: impl FnMut(Entry)) {
+    let [a, b] = &table.sides;
+    let sides = [OnSide::new(a, &place.on[0], 0), OnSide::new(b, &place.on[1], a.nodes.len())];
     for (side, sign) in sides.iter().zip([-1.0, 1.0]) {
         for (node, n, _) in side.functions() {
-            for component in 0..2 {
+            for component in 0..components {
                 add(Entry { node, component, direction: component, value: sign * n });
             }
         }
     }
-    let off = off_curves(c, segment, spot);
-    let gap = apart(c, segment, spot, off);
-    if [off[0], off[1], gap].iter().all(|v| norm(*v) <= COINCIDENT * c.length) {
+    let gap = place.apart;
+    let coincide = |way: [f64; 3]| norm(way) <= COINCIDENT * table.midplane.length;
+    if place.on.iter().all(|on| coincide(on.off)) && coincide(gap) {
         return;
     }
-    for (i, sign) in [-1.0, 1.0].into_iter().enumerate() {
-        let side = &sides[i];
-        let [dx, dy] = side.chain.derivative(side.edge, side.xi);
-        let stretch = off[i].map(|x| sign * x);
+    for ((side, on), sign) in sides.iter().zip(&place.on).zip([-1.0, 1.0]) {
+        let [dx, dy, _] = side.facets.derivative(side.facet, side.dn);
+        let stretch = on.off.map(|x| sign * x);
         let lever = [0, 1].map(|d| stretch[d] - 0.5 * gap[d]);
         let turn = [-lever[1], lever[0]]; // ẑ × lever
         for (node, _, dn) in side.functions() {
@@ -74,43 +69,26 @@ pub(super) fn entries(c: &Midplane, segment: &Segment, spot: &MidplanePoint, mut
     }
 }
 
-/// Way from either edge to the curve that it is a chord of.
-fn off_curves(c: &Midplane, segment: &Segment, spot: &MidplanePoint) -> [[f64; 2]; 2] {
-    let [a, b] = &c.angles;
-    [a.to_curve(&c.a, segment.edge_a, spot.xi_a), b.to_curve(&c.b, segment.edge_b, spot.xi_b)]
-}
-
-/// Way from the curve of A to that of B.
-fn apart(c: &Midplane, segment: &Segment, spot: &MidplanePoint, off: [[f64; 2]; 2]) -> [f64; 2] {
-    let edges = minus(c.b.point(segment.edge_b, spot.xi_b), c.a.point(segment.edge_a, spot.xi_a));
-    plus(edges, minus(off[1], off[0]))
-}
-
-/// The drawn gap at a place of a segment: the way from one curve to the other, without what chords differ by.
-pub(super) fn drawn(c: &Midplane, segment: &Segment, spot: &MidplanePoint) -> [f64; 2] {
-    apart(c, segment, spot, off_curves(c, segment, spot))
-}
-
-/// A place on one edge of a chain.
-struct OnEdge<'a> {
-    chain: &'a Chain,
-    edge: usize,
-    xi: f64,
-    /// Column of the chain's first node.
+/// A place on a facet of a side.
+struct OnSide<'a> {
+    facets: &'a Facets,
+    facet: usize,
+    /// Column of the side's first node.
     first: usize,
-    /// Shape functions and their derivatives: start, end, mid-node.
+    /// Shape functions and their derivatives, node by node.
     n: [f64; 3],
     dn: [f64; 3],
 }
 
-impl OnEdge<'_> {
-    fn new(chain: &Chain, edge: usize, xi: f64, first: usize) -> OnEdge<'_> {
-        let (n, dn) = chain.functions(edge, xi);
-        OnEdge { chain, edge, xi, first, n, dn }
+impl OnSide<'_> {
+    fn new<'a>(facets: &'a Facets, on: &OnFacet, first: usize) -> OnSide<'a> {
+        let (n, dn) = facets.functions(on);
+        OnSide { facets, facet: on.facet, first, n, dn }
     }
 
-    /// (column node, N, dN/dξ) of the edge's nodes.
+    /// (column node, N, dN/dξ) of the facet's nodes.
     fn functions(&self) -> impl Iterator<Item = (usize, f64, f64)> {
-        self.chain.edge(self.edge).zip(self.n).zip(self.dn).map(|((i, n), dn)| (self.first + i, n, dn))
+        let nodes = self.facets.corners[self.facet].iter();
+        nodes.zip(self.n).zip(self.dn).map(|((&i, n), dn)| (self.first + i, n, dn))
     }
 }

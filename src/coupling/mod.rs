@@ -18,16 +18,13 @@
 
 mod jump;
 mod line;
+mod place;
 mod pointwise;
 mod projected;
 mod view;
 
-pub use line::chain::{Chain, Run};
-pub use line::link::Side;
-pub use line::midplane::{Midplane, MidplanePoint};
-pub use line::parts::join;
-pub use line::segment::{Piece, Segment};
-pub use view::SegmentView;
+pub use line::{LineMidplane, Side, join};
+pub use place::{CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, SegmentView, Table};
 
 use crate::error::Result;
 use crate::sparse::Csr;
@@ -72,23 +69,18 @@ pub struct Scheme {
     pub gap: Gap,
 }
 
-/// The interface as the solver sees it, with the geometry it came from.
+/// The interface as the solver sees it.
 #[derive(Debug, Clone)]
 pub struct Coupling {
     /// Displacement components per node.
     pub components: usize,
-    /// Nodes of side A in the model; the first columns of `jump`.
-    pub nodes_a: Vec<usize>,
-    /// Nodes of side B in the model; the columns after those of A.
-    pub nodes_b: Vec<usize>,
+    /// Facets of side A and side B; nodes of A are the first columns of `jump`, those of B the columns after them.
+    pub sides: [Facets; 2],
     /// G: row `components · coefficient + component`, column `components · node + component`.
     pub jump: Csr,
     /// Where the law acts, in order along C.
     pub points: Vec<LawPoint>,
-    /// Arc lengths of the ends of the grid's cells, twice where one piece of C ends and the next begins; empty for
-    /// `pointwise`.
-    pub grid: Vec<f64>,
-    /// The geometry.
+    /// C in numbers.
     pub midplane: Midplane,
 }
 
@@ -99,15 +91,31 @@ pub struct LawPoint {
     pub weight: f64,
     /// Arc length along C [length].
     pub s: f64,
-    /// Its place in the plane.
-    pub position: [f64; 2],
-    /// R: rows n and t in x, y.
-    pub rotation: [[f64; 2]; 2],
+    /// Its place.
+    pub position: [f64; 3],
+    /// R: rows n, t and s.
+    pub rotation: [[f64; 3]; 3],
     /// Drawn distance from A to B along n, without what chords of one curve differ by and projected as the jump is;
     /// negative where they overlap [length].
     pub gap: f64,
-    /// N: (coefficient, value); unused entries have the value zero.
-    pub interpolation: [(usize, f64); 3],
+    /// N: (coefficient, value).
+    pub interpolation: Vec<(usize, f64)>,
+    /// Facets of side A and side B that face each other there.
+    pub facets: [usize; 2],
+}
+
+impl LawPoint {
+    fn new(place: &Place, gap: f64) -> LawPoint {
+        LawPoint {
+            weight: place.weight,
+            s: place.s,
+            position: place.position,
+            rotation: place.frame,
+            gap,
+            interpolation: place.functions.clone(),
+            facets: [0, 1].map(|side| place.on[side].facet),
+        }
+    }
 }
 
 impl Coupling {
@@ -115,12 +123,16 @@ impl Coupling {
     ///
     /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
     pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
-        let midplane = join(name, a, b, scheme.gap)?;
+        let table = line::table(name, a, b, scheme)?;
         Ok(match scheme.kind {
-            JumpScheme::Projected => projected::build(midplane, scheme.points, true),
-            JumpScheme::ProjectedLinear => projected::build(midplane, scheme.points, false),
-            JumpScheme::Pointwise => pointwise::build(midplane, scheme.points),
+            JumpScheme::Projected | JumpScheme::ProjectedLinear => projected::build(table, PLANE),
+            JumpScheme::Pointwise => pointwise::build(table, PLANE),
         })
+    }
+
+    fn new(table: Table, components: usize, jump: Csr, points: Vec<LawPoint>) -> Coupling {
+        let Table { sides, midplane, .. } = table;
+        Coupling { components, sides, jump, points, midplane }
     }
 
     /// Number of jump coefficients, each of `components` values.
@@ -128,3 +140,6 @@ impl Coupling {
         self.jump.rows() / self.components
     }
 }
+
+/// Components of displacements that lines join.
+const PLANE: usize = 2;

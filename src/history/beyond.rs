@@ -25,15 +25,11 @@ pub struct Beyond {
 /// Notes the jumps of an increment that exceed an edge of either side.
 pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told: &mut Vec<Beyond>) {
     for (k, interface) in problem.model.interfaces.iter().enumerate() {
-        let midplane = &interface.coupling.midplane;
+        let coupling = &interface.coupling;
         let jumps = state.snapshot.jumps[k].iter().zip(&state.snapshot.tractions[k]);
-        let mut segment = 0;
-        for (point, (jump, traction)) in interface.coupling.points.iter().zip(jumps) {
-            while segment + 1 < midplane.segments.len() && midplane.segments[segment].end < point.s {
-                segment += 1;
-            }
-            let facing = &midplane.segments[segment];
-            let edge = midplane.a.chord(facing.edge_a).min(midplane.b.chord(facing.edge_b));
+        for (point, (jump, traction)) in coupling.points.iter().zip(jumps) {
+            let [a, b] = point.facets;
+            let edge = coupling.chord(0, a).min(coupling.chord(1, b));
             let [opening, slip] = [jump[0], jump[1].abs()];
             if opening.max(slip) <= edge || *traction == [0.0; 2] {
                 continue;
@@ -46,7 +42,7 @@ pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told
                     increment,
                     jump,
                     edges: jump / edge,
-                    at: point.position,
+                    at: [point.position[0], point.position[1]],
                 };
                 match told.iter_mut().find(|one| one.opens == opens && one.interface == interface.name) {
                     Some(one) if new.edges > one.edges => *one = Beyond { increment: one.increment, ..new },

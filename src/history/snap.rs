@@ -50,7 +50,8 @@ pub(super) fn tell(
 pub(super) fn place_of(analysis: &Analysis, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
     let Some(&(interface, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
     let interface = &analysis.problem.model.interfaces[interface];
-    (interface.name.clone(), interface.coupling.points[point].position)
+    let [x, y, _] = interface.coupling.points[point].position;
+    (interface.name.clone(), [x, y])
 }
 
 /// Tells energy that is lost at once in a part, where a traction drops, as a snap.

@@ -55,7 +55,7 @@ pub(super) fn interface(
         .pieces
         .iter()
         .filter(apart)
-        .map(|p| segments[p.segments.start].start)
+        .map(|p| segments[p.segments.start].s[0])
         .collect();
     let of = |s: f64| breaks.partition_point(|start| *start <= s);
     let lines: Vec<i64> =
@@ -63,7 +63,7 @@ pub(super) fn interface(
     let none = vec![law::State::default(); n];
     let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
     VtuGrid {
-        points: points.iter().flat_map(|p| [p.position[0], p.position[1], 0.0]).collect(),
+        points: points.iter().flat_map(|p| p.position).collect(),
         connectivity: lines.iter().flat_map(|&i| [i - 1, i]).collect(),
         offsets: (1..=lines.len() as i64).map(|i| 2 * i).collect(),
         types: vec![3; lines.len()],
@@ -78,7 +78,7 @@ pub(super) fn interface(
             Array::float("fracture_work", 1, states.iter().map(|state| state.fracture_work)),
             Array::int("status", states.iter().map(|state| i64::from(state.status))),
             Array::float("length", 1, points.iter().map(|p| p.weight)),
-            Array::float("normal", 3, points.iter().flat_map(|p| [p.rotation[0][0], p.rotation[0][1], 0.0])),
+            Array::float("normal", 3, points.iter().flat_map(|p| p.rotation[0])),
         ],
         time,
         ..VtuGrid::default()
@@ -89,29 +89,21 @@ pub(super) fn interface(
 /// edges on both chains (−1 for grid cells) and the arc length at every point.
 pub(super) fn midplane(interface: &InterfaceOperator) -> VtuGrid {
     let midplane = &interface.coupling.midplane;
-    let segments = midplane.segments.iter().map(|g| (g.start, g.end, 0, g.edge_a as i64, g.edge_b as i64));
-    let cells = interface.coupling.grid.windows(2).filter(|pair| pair[1] > pair[0]);
-    let cells = cells.map(|pair| (pair[0], pair[1], 1, -1, -1));
-    let lines: Vec<(f64, f64, i64, i64, i64)> = segments.chain(cells).collect();
-    let ends: Vec<f64> = lines.iter().flat_map(|line| [line.0, line.1]).collect();
+    let segments = midplane.segments.iter().map(|g| (g.s, g.places, 0, g.facets.map(|facet| facet as i64)));
+    let cells = midplane.cells.iter().map(|cell| (cell.s, cell.places, 1, [-1; 2]));
+    let lines: Vec<_> = segments.chain(cells).collect();
+    let ends: Vec<f64> = lines.iter().flat_map(|line| line.0).collect();
     let n = lines.len() as i64;
     VtuGrid {
-        points: lines
-            .iter()
-            .flat_map(|line| {
-                let inside = 0.5 * (line.0 + line.1);
-                [line.0, line.1].map(|s| midplane.position(s, inside))
-            })
-            .flat_map(|p| [p[0], p[1], 0.0])
-            .collect(),
+        points: lines.iter().flat_map(|line| line.1).flatten().collect(),
         connectivity: (0..2 * n).collect(),
         offsets: (1..=n).map(|i| 2 * i).collect(),
         types: vec![3; lines.len()],
         point_data: vec![Array { name: "arc_length", components: 1, data: Data::Float(ends) }],
         cell_data: vec![
             Array::int("kind", lines.iter().map(|line| line.2)),
-            Array::int("edge_a", lines.iter().map(|line| line.3)),
-            Array::int("edge_b", lines.iter().map(|line| line.4)),
+            Array::int("edge_a", lines.iter().map(|line| line.3[0])),
+            Array::int("edge_b", lines.iter().map(|line| line.3[1])),
         ],
         ..VtuGrid::default()
     }

@@ -20,9 +20,9 @@ enum GeometryKind {
     /// An edge of side B.
     EdgeB = 3,
     /// From the end of a segment to its place on side A.
-    FootA = 4,
+    ProjectionA = 4,
     /// The same on side B.
-    FootB = 5,
+    ProjectionB = 5,
     /// A law point, with its normal.
     LawPoint = 6,
 }
@@ -65,13 +65,13 @@ impl Drawing {
         kind: GeometryKind,
         number: usize,
         parents: [i64; 2],
-        points: &[[f64; 2]],
-        normal: [f64; 2],
+        points: &[[f64; 3]],
+        normal: [f64; 3],
     ) {
         for p in points {
             self.grid.connectivity.push(self.grid.points.len() as i64 / 3);
-            self.grid.points.extend([p[0], p[1], 0.0]);
-            self.normals.extend([normal[0], normal[1], 0.0]);
+            self.grid.points.extend(p);
+            self.normals.extend(normal);
         }
         self.grid.offsets.push(self.grid.connectivity.len() as i64);
         self.grid.types.push(TYPES[points.len() - 1]);
@@ -85,25 +85,26 @@ fn geometry(interface: &InterfaceOperator) -> VtuGrid {
     let coupling = &interface.coupling;
     let mut drawing = Drawing::default();
     for (side, kind) in [GeometryKind::EdgeA, GeometryKind::EdgeB].into_iter().enumerate() {
-        for e in 0..coupling.edges(side) {
+        for e in 0..coupling.facets(side) {
             let mut parents = [-1; 2];
             parents[side] = e as i64;
-            drawing.add(kind, e, parents, &coupling.line(side, e), [0.0; 2]);
+            drawing.add(kind, e, parents, &coupling.line(side, e), [0.0; 3]);
         }
     }
-    for (number, share) in coupling.shares().into_iter().enumerate() {
-        let parents = share.edges.map(|e| e as i64);
-        drawing.add(GeometryKind::Segment, number, parents, &share.places, [0.0; 2]);
+    for (number, share) in coupling.midplane.segments.iter().enumerate() {
+        let parents = share.facets.map(|e| e as i64);
+        drawing.add(GeometryKind::Segment, number, parents, &share.places, [0.0; 3]);
         for (end, place) in share.places.into_iter().enumerate() {
-            for (side, kind) in [GeometryKind::FootA, GeometryKind::FootB].into_iter().enumerate() {
-                let line = coupling.line(side, share.edges[side]);
-                let foot = foot(&line, share.taken[side][end]);
-                drawing.add(kind, number, parents, &[place, foot], [0.0; 2]);
+            for (side, kind) in [GeometryKind::ProjectionA, GeometryKind::ProjectionB].into_iter().enumerate()
+            {
+                let line = coupling.line(side, share.facets[side]);
+                let foot = projection(&line, share.projections[side][end]);
+                drawing.add(kind, number, parents, &[place, foot], [0.0; 3]);
             }
         }
     }
-    for (number, cell) in coupling.cells().into_iter().enumerate() {
-        drawing.add(GeometryKind::GridCell, number, [-1; 2], &cell, [0.0; 2]);
+    for (number, cell) in coupling.midplane.cells.iter().enumerate() {
+        drawing.add(GeometryKind::GridCell, number, [-1; 2], &cell.places, [0.0; 3]);
     }
     for (number, point) in coupling.points.iter().enumerate() {
         drawing.add(GeometryKind::LawPoint, number, [-1; 2], &[point.position], point.rotation[0]);
@@ -120,7 +121,7 @@ fn geometry(interface: &InterfaceOperator) -> VtuGrid {
 }
 
 /// The place on an edge at a fraction of its ξ.
-fn foot(line: &[[f64; 2]], fraction: f64) -> [f64; 2] {
+fn projection(line: &[[f64; 3]], fraction: f64) -> [f64; 3] {
     let weights = match line.len() {
         2 => vec![1.0 - fraction, fraction],
         _ => {
@@ -128,5 +129,5 @@ fn foot(line: &[[f64; 2]], fraction: f64) -> [f64; 2] {
             vec![0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)]
         }
     };
-    [0, 1].map(|d| line.iter().zip(&weights).map(|(p, w)| w * p[d]).sum())
+    [0, 1, 2].map(|d| line.iter().zip(&weights).map(|(p, w)| w * p[d]).sum())
 }

@@ -73,10 +73,10 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
 fn taken(model: &Model) -> BTreeMap<EdgeKey, Vec<EdgeShare>> {
     let mut edges: BTreeMap<EdgeKey, Vec<EdgeShare>> = BTreeMap::new();
     for (interface, of_model) in model.interfaces.iter().enumerate() {
-        for share in of_model.coupling.shares() {
+        for share in &of_model.coupling.midplane.segments {
             for side in 0..2 {
-                let nodes = of_model.coupling.nodes(side, share.edges[side]);
-                let [start, end] = share.taken[side];
+                let nodes = of_model.coupling.nodes(side, share.facets[side]);
+                let [start, end] = share.projections[side];
                 let (from, to) = if nodes[0] < nodes[1] { (start, end) } else { (1.0 - end, 1.0 - start) };
                 edges.entry(ordered(nodes)).or_default().push(EdgeShare { interface, from, to });
             }

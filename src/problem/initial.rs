@@ -40,7 +40,7 @@ impl InitialTraction {
         let t = Quantity::new(scene, &["interfaces", name, "initial_traction", "1"], t);
         let length = interface.coupling.midplane.length;
         let tractions = interface.coupling.points.iter().map(|point| {
-            let [x, y] = point.position;
+            let [x, y, _] = point.position;
             let place = Place { x, y, s: point.s / length, load_factor: 0.0 };
             Ok([n.at(&place)?, t.at(&place)?])
         });

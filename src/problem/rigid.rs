@@ -100,7 +100,7 @@ pub(super) fn check_free_subdomains(
     }
     let mut u = vec![0.0; model.dofs()];
     for (interface, BoundInterface { law, .. }) in model.interfaces.iter().zip(interfaces) {
-        let mut nodes = [interface.coupling.nodes_a.as_slice(), &interface.coupling.nodes_b].concat();
+        let mut nodes = interface.coupling.sides.each_ref().map(|side| side.nodes.as_slice()).concat();
         nodes.sort_unstable();
         nodes.dedup(); // both sides of a slit share its tips
         let mut touched: Vec<usize> = nodes.iter().map(|&node| part_of[node]).collect();

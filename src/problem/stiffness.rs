@@ -28,8 +28,8 @@ pub(super) fn compliance(model: &Model, interface: &InterfaceOperator) -> f64 {
         let subdomain = model.subdomains.partition_point(|subdomain| subdomain.first_node <= node) - 1;
         model.subdomains[subdomain].elasticity.young
     };
-    let numbers = coupling.shares().into_iter().map(|share| {
-        let [a, b] = share.edges;
+    let numbers = coupling.midplane.segments.iter().map(|share| {
+        let [a, b] = share.facets;
         coupling.chord(0, a).max(coupling.chord(1, b)) / young(0, a).min(young(1, b))
     });
     numbers.fold(0.0, f64::max)

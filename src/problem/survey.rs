@@ -28,9 +28,9 @@ impl Survey {
     /// Measures an interface.
     pub fn of(model: &Model, interface: &InterfaceOperator, law: &Law) -> Survey {
         let coupling = &interface.coupling;
-        let shares = coupling.shares();
+        let shares = &coupling.midplane.segments;
         let joined = [0, 1].map(|side| {
-            let mut edges: Vec<usize> = shares.iter().map(|share| share.edges[side]).collect();
+            let mut edges: Vec<usize> = shares.iter().map(|share| share.facets[side]).collect();
             edges.sort_unstable();
             edges.dedup();
             edges
@@ -39,7 +39,7 @@ impl Survey {
         Survey {
             edges: [joined[0].len(), joined[1].len()],
             segments: shares.len(),
-            grid_nodes: coupling.grid.len(),
+            grid_nodes: coupling.midplane.grid_nodes,
             length: coupling.midplane.length,
             gap: coupling.midplane.gap,
             kink: kink[0].max(kink[1]).to_degrees(),
@@ -65,8 +65,8 @@ fn largest_turn(coupling: &Coupling, side: usize, joined: &[usize]) -> f64 {
 }
 
 /// Direction of an edge at its start or end, of any length.
-fn tangent(line: &[[f64; 2]], end: bool) -> [f64; 2] {
-    [0, 1].map(|d| match (line, end) {
+fn tangent(line: &[[f64; 3]], end: bool) -> [f64; 3] {
+    [0, 1, 2].map(|d| match (line, end) {
         ([p, m, q], false) => 4.0 * (m[d] - p[d]) - (q[d] - p[d]), // x′(−1) of the parabola
         ([p, m, q], true) => 4.0 * (q[d] - m[d]) - (q[d] - p[d]),
         _ => line[line.len() - 1][d] - line[0][d],
@@ -80,9 +80,9 @@ mod tests {
     #[test]
     fn a_parabola_has_its_slope_at_both_ends() {
         // y = x² on −1 … 1
-        let line = [[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]];
+        let line = [[-1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
         for (end, slope) in [(false, -2.0), (true, 2.0)] {
-            let [x, y] = tangent(&line, end);
+            let [x, y, _] = tangent(&line, end);
             assert_eq!(y / x, slope);
         }
     }

@@ -26,7 +26,7 @@ pub(super) fn of_interface(
     let (name, law) = (&interface.name, &plan.stated.law);
     let coupling = &interface.coupling;
     let segments = coupling.midplane.segments.len();
-    let matched = (0..2).all(|side| coupling.edges(side) == segments);
+    let matched = (0..2).all(|side| coupling.facets(side) == segments);
     let number = stiffness_number(model, interface, law);
     if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.stated) {
         let what = format!("interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions");
@@ -90,7 +90,7 @@ fn far_away(interface: &InterfaceOperator) -> Option<Warning> {
     let (mut farthest, mut smallest) = (0.0_f64, f64::INFINITY);
     let coupling = &interface.coupling;
     for side in 0..2 {
-        for e in 0..coupling.edges(side) {
+        for e in 0..coupling.facets(side) {
             let line = coupling.line(side, e);
             farthest = line.as_flattened().iter().fold(farthest, |far, x| far.max(x.abs()));
             smallest = smallest.min(coupling.chord(side, e));

@@ -145,10 +145,10 @@ pub(super) fn summary<'a>(
     let interfaces = model.interfaces.iter().zip(problem.laws()).map(|(interface, law)| {
         let midplane = &interface.coupling.midplane;
         let size = InterfaceSize {
-            edges_a: midplane.a.edges(),
-            edges_b: midplane.b.edges(),
+            edges_a: interface.coupling.facets(0),
+            edges_b: interface.coupling.facets(1),
             segments: midplane.segments.len(),
-            grid_nodes: interface.coupling.grid.len(),
+            grid_nodes: midplane.grid_nodes,
             law_points: interface.coupling.points.len(),
             length: midplane.length,
             gap: midplane.gap,

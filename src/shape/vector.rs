@@ -1,22 +1,32 @@
-//! Vectors of the plane as pairs.
+//! Vectors in space as arrays; in the plane the last component is exactly zero.
 
-pub fn plus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] + q[0], p[1] + q[1]]
+/// p + q
+pub fn plus<const D: usize>(p: [f64; D], q: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|d| p[d] + q[d])
 }
 
-pub fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
+/// p − q
+pub fn minus<const D: usize>(p: [f64; D], q: [f64; D]) -> [f64; D] {
+    std::array::from_fn(|d| p[d] - q[d])
 }
 
-pub fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
-    p[0] * q[0] + p[1] * q[1]
+/// p · q
+pub fn dot<const D: usize>(p: [f64; D], q: [f64; D]) -> f64 {
+    (1..D).fold(p[0] * q[0], |sum, d| sum + p[d] * q[d])
 }
 
-pub fn norm(p: [f64; 2]) -> f64 {
+/// |p|
+pub fn norm<const D: usize>(p: [f64; D]) -> f64 {
     dot(p, p).sqrt() // as exact as hypot but for sizes beyond 1e±154
 }
 
-pub fn unit(v: [f64; 2]) -> [f64; 2] {
+/// v / |v|
+pub fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = norm(v);
-    [v[0] / length, v[1] / length]
+    v.map(|v| v / length)
+}
+
+/// A vector of the plane in space.
+pub fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
 }

@@ -104,7 +104,7 @@ fn on_interface(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Valu
     let coupling = &model.interfaces[k].coupling;
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
-        let [x, y] = point.position;
+        let [x, y, _] = point.position;
         let place = Place { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
         add(&mut sums, point.weight, *field, exact, &place);
     }

@@ -108,7 +108,7 @@ pub fn join_with(a: &[&Curve], b: &[&Curve], scheme: Scheme) -> Result<Coupling>
 
 /// A displacement field of both sides in the order of the coupling's columns.
 pub fn columns(c: &Coupling, u: &[[f64; 2]]) -> Vec<f64> {
-    c.nodes_a.iter().chain(&c.nodes_b).flat_map(|&node| u[node]).collect()
+    c.sides[0].nodes.iter().chain(&c.sides[1].nodes).flat_map(|&node| u[node]).collect()
 }
 
 /// Jumps (n, t) at the law points.
@@ -127,7 +127,7 @@ pub fn jumps(c: &Coupling, u: &[[f64; 2]]) -> Vec<[f64; 2]> {
 pub fn forces(c: &Coupling, tractions: &[[f64; 2]], nodes: usize) -> Vec<[f64; 2]> {
     let mut q = vec![0.0; c.jump.rows()];
     for (p, t) in c.points.iter().zip(tractions) {
-        for (i, n) in p.interpolation {
+        for &(i, n) in &p.interpolation {
             for d in 0..2 {
                 q[2 * i + d] += p.weight * n * (p.rotation[0][d] * t[0] + p.rotation[1][d] * t[1]);
             }
@@ -136,7 +136,7 @@ pub fn forces(c: &Coupling, tractions: &[[f64; 2]], nodes: usize) -> Vec<[f64; 2
     let mut f = vec![0.0; c.jump.width];
     c.jump.add_transposed(&q, &mut f);
     let mut by_node = vec![[0.0; 2]; nodes];
-    for (&node, f) in c.nodes_a.iter().chain(&c.nodes_b).zip(f.chunks_exact(2)) {
+    for (&node, f) in c.sides[0].nodes.iter().chain(&c.sides[1].nodes).zip(f.chunks_exact(2)) {
         by_node[node][0] += f[0];
         by_node[node][1] += f[1];
     }

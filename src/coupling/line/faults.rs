@@ -3,7 +3,7 @@
 use super::angle::Angles;
 use super::link::names;
 use super::segment::{CommonStretch, FACING};
-use super::{Midplane, Side};
+use super::{LineMidplane, Side};
 use crate::error::Error;
 use crate::shape::vector::*;
 
@@ -40,7 +40,7 @@ pub(in crate::coupling) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
 }
 
 /// No part lies on the other side: the sides lie beside each other.
-pub(in crate::coupling) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &Midplane) -> Error {
+pub(in crate::coupling) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &LineMidplane) -> Error {
     // the lines start and end where the sides come closest
     let ends = |chain: &super::Chain, angles: &Angles| -> Vec<[f64; 2]> {
         let of_line = |line: &super::angle::SmoothLine| {
@@ -75,7 +75,7 @@ pub(in crate::coupling) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &M
 pub(in crate::coupling) fn twice(
     name: &str,
     sides: [&[Side]; 2],
-    c: &Midplane,
+    c: &LineMidplane,
     side: usize,
     edge: usize,
 ) -> Error {

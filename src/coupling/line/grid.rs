@@ -4,8 +4,8 @@
 //! each side, so there are at most min(edges A, edges B) cells. The walk starts where the first edges are longer, so
 //! that neither labels nor file order matter; on a tie at the end with smaller x, then y.
 
-use super::Midplane;
-use super::segment::Piece;
+use super::LineMidplane;
+use super::Piece;
 use crate::shape::vector::*;
 
 /// "After" means farther than this. Of the length of the piece.
@@ -19,7 +19,7 @@ struct SideNode {
 }
 
 /// Arc lengths of the grid's nodes on a piece, ascending, from its start to its end.
-pub(in crate::coupling) fn nodes(c: &Midplane, piece: &Piece) -> Vec<f64> {
+pub(in crate::coupling) fn nodes(c: &LineMidplane, piece: &Piece) -> Vec<f64> {
     let segments = &c.segments[piece.segments.clone()];
     let [start, end] = c.span(piece);
     let length = end - start;
@@ -87,7 +87,7 @@ fn walk(cuts: &[SideNode], length: f64) -> Vec<usize> {
 
 /// True if the walk starts at the end of the piece: compares the edges from both ends inwards, the larger of A and B
 /// first.
-fn starts_at_the_far_end(c: &Midplane, piece: &Piece, cuts: &[SideNode], length: f64) -> bool {
+fn starts_at_the_far_end(c: &LineMidplane, piece: &Piece, cuts: &[SideNode], length: f64) -> bool {
     let places = |side: usize| -> Vec<f64> {
         // cuts that are one node to the walk are one here
         let mut s: Vec<f64> = cuts.iter().filter(|cut| cut.of[side]).map(|cut| cut.s).collect();

@@ -5,14 +5,15 @@
 //! direction. Arc length s counts the segments of all pieces, one after the other, and is linear in η within each.
 
 use super::Chain;
+use super::Piece;
 use super::angle::Angles;
-use super::segment::{Piece, Segment};
+use super::segment::Segment;
 use crate::shape::GAUSS_3;
 use crate::shape::vector::*;
 
 /// The mid-plane of two sides.
 #[derive(Debug, Clone)]
-pub struct Midplane {
+pub struct LineMidplane {
     /// Side A, its body on the right: n on the left points away from it.
     pub a: Chain,
     /// Side B, its body on the left, so that both run along the tangent.
@@ -53,7 +54,7 @@ pub struct MidplanePoint {
     pub speed: f64,
 }
 
-impl Midplane {
+impl LineMidplane {
     /// The place η of a segment, −1 at its start and 1 at its end.
     pub fn spot(&self, segment: usize, eta: f64) -> MidplanePoint {
         let g = &self.segments[segment];

@@ -1,17 +1,23 @@
-//! Sides that are lines: chains of edges, which place faces which, the segments of C and the grid on it.
+//! Sides that are lines: chains of edges, which place faces which, the segments of C and the grid on it. They fill the table of
+//! places (`super::place`).
 
-pub(super) mod angle;
-pub(super) mod chain;
-pub(super) mod faults;
-pub(super) mod grid;
-pub(super) mod link;
-pub(super) mod midplane;
-pub(super) mod pair;
-pub(super) mod parts;
-pub(super) mod seam;
-pub(super) mod segment;
+mod angle;
+mod cells;
+mod chain;
+mod faults;
+mod grid;
+mod link;
+mod midplane;
+mod pair;
+mod parts;
+mod seam;
+mod segment;
+mod table;
 
-use super::Gap;
+pub use link::Side;
+pub use midplane::LineMidplane;
+pub use parts::join;
+pub use table::table;
+
+use super::{Gap, Piece};
 use chain::Chain;
-use link::Side;
-use midplane::Midplane;

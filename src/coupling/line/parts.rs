@@ -4,11 +4,12 @@
 //! first end. A part whose sides are farther apart than polygons of one curve can be does not count as lying on each
 //! other; a part that comes apart on its way is refused with its gap.
 
+use super::Piece;
 use super::angle::Angles;
 use super::link::Orientation;
 use super::pair::{Face, starts, walk};
-use super::segment::{CommonStretch, FACING, LinePoint, Piece, Segment};
-use super::{Chain, Gap, Midplane, Side, faults, seam};
+use super::segment::{CommonStretch, FACING, LinePoint, Segment};
+use super::{Chain, Gap, LineMidplane, Side, faults, seam};
 use crate::error::Result;
 use crate::shape::vector::*;
 
@@ -24,7 +25,7 @@ const SLIVER: f64 = 1e-13;
 const ROUNDING: f64 = 4.0;
 
 /// The mid-plane of two sides: orders their edges, finds what faces what, and cuts C. `name` is the interface's, for messages.
-pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Midplane> {
+pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<LineMidplane> {
     let sides = [side_a, side_b];
     let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes[0]]));
     let origin = edge.unwrap_or_default();
@@ -37,7 +38,7 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
     let ((a, angles_a), (b, angles_b)): ((Chain, Angles), (Chain, Angles)) = (a?, b?);
     let angles = [angles_a, angles_b];
     let kink = angles[0].sharpest.max(angles[1].sharpest);
-    let mut c = Midplane {
+    let mut c = LineMidplane {
         a,
         b,
         origin,
@@ -77,7 +78,7 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Mi
 }
 
 /// True if the sides would have common parts if one of them were turned.
-fn bodies_on_one_side(c: &Midplane) -> bool {
+fn bodies_on_one_side(c: &LineMidplane) -> bool {
     let mut turned = c.clone();
     turned.b = turned.b.reversed();
     turned.angles[1] = Angles::new(&turned.b);
@@ -85,7 +86,7 @@ fn bodies_on_one_side(c: &Midplane) -> bool {
 }
 
 /// All common parts of all lines, whatever their gap.
-fn parts(c: &mut Midplane, gap: Gap) -> Vec<CommonStretch> {
+fn parts(c: &mut LineMidplane, gap: Gap) -> Vec<CommonStretch> {
     let lines = [0, 1].map(|side| c.angles[side].lines.clone());
     let length = |chain: &Chain, edges: &[usize]| edges.iter().map(|&e| chain.chord(e)).sum::<f64>();
     let lengths_b: Vec<f64> = lines[1].iter().map(|line| length(&c.b, &line.edges)).collect();
@@ -117,7 +118,7 @@ fn parts(c: &mut Midplane, gap: Gap) -> Vec<CommonStretch> {
 
 /// Lengths and gaps of the segments of a part; drops those that are no longer than nodes that are one.
 fn measure(
-    c: &mut Midplane,
+    c: &mut LineMidplane,
     segments: Vec<Segment>,
     order: (usize, LinePoint),
     closed: bool,
@@ -163,7 +164,7 @@ fn measure(
 }
 
 /// Puts the parts one after the other, in the order of chain A.
-fn assemble(c: &mut Midplane, mut parts: Vec<CommonStretch>) {
+fn assemble(c: &mut LineMidplane, mut parts: Vec<CommonStretch>) {
     parts.sort_by(|p, q| {
         let key = |part: &CommonStretch| (part.order.0, part.order.1.i);
         key(p).cmp(&key(q)).then(p.order.1.xi.total_cmp(&q.order.1.xi))
@@ -188,7 +189,7 @@ fn assemble(c: &mut Midplane, mut parts: Vec<CommonStretch>) {
 }
 
 /// How often every edge of a side is joined: 0 to 1, more if it faces two curves at one place.
-fn cover(c: &Midplane, side: usize) -> Vec<f64> {
+fn cover(c: &LineMidplane, side: usize) -> Vec<f64> {
     let mut cover = vec![0.0; if side == 0 { c.a.edges() } else { c.b.edges() }];
     for segment in &c.segments {
         let (e, xi) = if side == 0 { (segment.edge_a, segment.xi_a) } else { (segment.edge_b, segment.xi_b) };

@@ -1,13 +1,13 @@
 //! Where a closed loop of C starts: at an A and a B node that lie closest together, on a tie at smaller x, then y, so
 //! that neither labels nor the order in a file matter.
 
-use super::Midplane;
+use super::LineMidplane;
 
 /// Distances that differ by less are the same. Of the length of the loop.
 const SAME: f64 = 1e-9;
 
 /// Turns every closed piece so that it starts there.
-pub(in crate::coupling) fn turn_closed(c: &mut Midplane) {
+pub(in crate::coupling) fn turn_closed(c: &mut LineMidplane) {
     for piece in c.pieces.clone() {
         if piece.closed {
             let first = start(c, piece.segments.clone());
@@ -24,7 +24,7 @@ pub(in crate::coupling) fn turn_closed(c: &mut Midplane) {
 }
 
 /// Number of the segment in its piece that the loop starts with: of the two nodes the one with longer edges beside it.
-fn start(c: &Midplane, range: std::ops::Range<usize>) -> usize {
+fn start(c: &LineMidplane, range: std::ops::Range<usize>) -> usize {
     let segments = &c.segments[range.clone()];
     let n = segments.len();
     let length: f64 = segments.iter().map(|g| g.end - g.start).sum();

@@ -20,17 +20,6 @@ pub struct Segment {
     pub xi_b: [f64; 2],
 }
 
-/// Segments that follow each other without a kink of C or a gap in either side.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Piece {
-    /// Numbers of its segments.
-    pub segments: std::ops::Range<usize>,
-    /// True if it ends where it starts.
-    pub closed: bool,
-    /// True if it starts where the piece before it ends.
-    pub follows: bool,
-}
-
 /// A place on a line: number of the edge in the line, ξ on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::coupling) struct LinePoint {

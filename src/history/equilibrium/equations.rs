@@ -207,10 +207,10 @@ fn settings(solution: &Solution) -> NewtonSettings {
 /// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
 fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -> Vec<f64> {
     let (interface, law) = (&problem.model.interfaces[k], &problem.interfaces[k].law);
-    let midplane = &interface.coupling.midplane;
-    let edges = midplane.a.edges().min(midplane.b.edges());
+    let coupling = &interface.coupling;
+    let edges = coupling.facets(0).min(coupling.facets(1));
     let young = interface.subdomains.map(|subdomain| problem.model.subdomains[subdomain].elasticity.young);
-    let soft = young[0].min(young[1]) * edges as f64 / midplane.length;
+    let soft = young[0].min(young[1]) * edges as f64 / coupling.midplane.length;
     let most = if condensed_interfaces.contains(&k) { soft } else { f64::INFINITY };
     let [kn, kt] = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
     [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
