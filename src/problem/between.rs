@@ -15,12 +15,12 @@ use crate::mesh::{Edge, Mesh, touching};
 use crate::scene::{Interface, JOINED, Scene};
 
 /// An interface and the side of it.
-type OnSide = (usize, usize);
+type InterfaceSide = (usize, usize);
 
 /// What interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
 #[derive(Default)]
 pub(super) struct JoinedEdges {
-    edges: HashMap<(usize, [usize; 3]), Vec<OnSide>>,
+    edges: HashMap<(usize, [usize; 3]), Vec<InterfaceSide>>,
     interfaces: usize,
 }
 

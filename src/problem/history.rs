@@ -12,7 +12,7 @@ use super::{along, groups};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::mesh::Group;
-use crate::scene::{Control, Direction, Place, Scene, Step, Value, Variable};
+use crate::scene::{Control, Direction, FormulaPlace, Scene, Step, Value, Variable};
 
 /// Two groups agree about a shared point if their displacements differ by less. Of the larger group's largest.
 const AGREE: f64 = 1e-12;
@@ -242,7 +242,7 @@ fn support(
         let mut places = places(scene, model, &path, group, &quantity)?;
         let mut values = Vec::with_capacity(places.len());
         for (_, place) in &mut places {
-            let half = quantity.at(&Place { load_factor: 0.5, ..*place });
+            let half = quantity.at(&FormulaPlace { load_factor: 0.5, ..*place });
             place.load_factor = 1.0;
             let end = quantity.at(place)?;
             values.push([end, if follows { half.unwrap_or(f64::NAN) } else { f64::NAN }]);
@@ -283,7 +283,7 @@ fn places(
     path: &[&str],
     name: &str,
     quantity: &Quantity,
-) -> Result<Vec<(usize, Place)>> {
+) -> Result<Vec<(usize, FormulaPlace)>> {
     let nodes = groups::nodes(scene, model, path, name)?;
     let (index, group) = groups::find(scene, model, path, name)?;
     let subdomain = &model.subdomains[index];
@@ -314,7 +314,7 @@ fn places(
     }
     let place = |(node, s): (usize, f64)| {
         let [x, y] = points[node - subdomain.first_node];
-        (node, Place { x, y, s, load_factor: 1.0 })
+        (node, FormulaPlace { x, y, s, load_factor: 1.0 })
     };
     Ok(nodes.into_iter().zip(s).map(place).collect())
 }

@@ -5,7 +5,7 @@ use super::quantity::Quantity;
 use crate::assembly::InterfaceOperator;
 use crate::error::Result;
 use crate::law::{self, Inadmissible, Law};
-use crate::scene::{self, Place, Scene};
+use crate::scene::{self, FormulaPlace, Scene};
 
 /// Initial traction (n, t) of an interface [stress].
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +41,7 @@ impl InitialTraction {
         let length = interface.coupling.midplane.length;
         let tractions = interface.coupling.points.iter().map(|point| {
             let [x, y, _] = point.position;
-            let place = Place { x, y, s: point.s / length, load_factor: 0.0 };
+            let place = FormulaPlace { x, y, s: point.s / length, load_factor: 0.0 };
             Ok([n.at(&place)?, t.at(&place)?])
         });
         Ok(InitialTraction::Varying(tractions.collect::<Result<_>>()?))

@@ -6,7 +6,7 @@ use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
 use crate::mesh::Edge;
-use crate::scene::{Load, Place, Scene, Value, Variable};
+use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
 
 /// A load in force.
 #[derive(Debug, Clone)]
@@ -118,7 +118,7 @@ impl BoundLoad {
             _ => None,
         };
         let at = |place: [f64; 2], s: f64| -> Result<[f64; 2]> {
-            let place = Place { x: place[0], y: place[1], s, load_factor };
+            let place = FormulaPlace { x: place[0], y: place[1], s, load_factor };
             Ok([x.at(&place)?, y.at(&place)?])
         };
         let mut scatter = |node: usize, nodal: [f64; 2]| {

@@ -1,7 +1,7 @@
 //! A number of the scene with the key it stands at, so that a formula that has no value somewhere is refused there.
 
 use crate::error::{At, Error, Result};
-use crate::scene::{Place, Scene, Value, Variable};
+use crate::scene::{FormulaPlace, Scene, Value, Variable};
 
 /// A number or formula with its key.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ impl Quantity {
     }
 
     /// Its value at a place, which must be finite.
-    pub(super) fn at(&self, place: &Place) -> Result<f64> {
+    pub(super) fn at(&self, place: &FormulaPlace) -> Result<f64> {
         let value = self.value.at(place);
         if value.is_finite() {
             return Ok(value);

@@ -10,7 +10,7 @@ use super::load::BoundLoad;
 use super::quantity::Quantity;
 use crate::assembly::Model;
 use crate::error::Result;
-use crate::scene::{Control, Place};
+use crate::scene::{Control, FormulaPlace};
 
 /// One step, bound.
 #[derive(Debug, Clone)]
@@ -43,14 +43,14 @@ pub struct BoundStep {
 #[derive(Debug, Clone)]
 pub(super) struct Moving {
     pub(super) dof: usize,
-    pub(super) place: Place,
+    pub(super) place: FormulaPlace,
     pub(super) value: Arc<Quantity>,
 }
 
 impl Moving {
     /// Its displacement at a load factor.
     pub(super) fn at(&self, load_factor: f64) -> Result<f64> {
-        self.value.at(&Place { load_factor, ..self.place })
+        self.value.at(&FormulaPlace { load_factor, ..self.place })
     }
 }
 

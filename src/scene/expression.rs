@@ -4,7 +4,7 @@
 //! Names are `x`, `y` (place), `s` (0…1 along the group), `load_factor` (0…1 within the step), `pi`, `e`, and functions.
 
 use super::grammar;
-pub use super::op::{FormulaFault, Place, Variable};
+pub use super::op::{FormulaFault, FormulaPlace, Variable};
 use super::op::{Op, STACK, evaluate};
 
 /// A compiled formula.
@@ -56,7 +56,7 @@ impl Expression {
     }
 
     /// Its value at a place; not finite where the formula is not defined.
-    pub fn at(&self, place: &Place) -> f64 {
+    pub fn at(&self, place: &FormulaPlace) -> f64 {
         evaluate(&self.code, place)
     }
 }
@@ -71,7 +71,7 @@ impl PartialEq for Expression {
 mod tests {
     use super::*;
 
-    const PLACE: Place = Place { x: 3.0, y: -0.5, s: 0.25, load_factor: 0.75 };
+    const PLACE: FormulaPlace = FormulaPlace { x: 3.0, y: -0.5, s: 0.25, load_factor: 0.75 };
 
     #[test]
     fn formulas_follow_the_rules_of_school() {

@@ -10,7 +10,7 @@
 //! ```
 
 use super::functions::{COMPARISONS, FUNCTIONS};
-use super::op::{FormulaFault, Op, Place, Variable, evaluate};
+use super::op::{FormulaFault, FormulaPlace, Op, Variable, evaluate};
 use crate::error::name_help;
 
 /// Longest formula [bytes].
@@ -64,7 +64,7 @@ impl<'a> Parser<'a> {
         let start = self.code.len().saturating_sub(1 + op.takes());
         let operands = &self.code[start..self.code.len() - 1];
         if op.takes() > 0 && operands.iter().all(|operand| matches!(operand, Op::Number(_))) {
-            let value = evaluate(&self.code[start..], &Place::default());
+            let value = evaluate(&self.code[start..], &FormulaPlace::default());
             self.code.truncate(start);
             self.code.push(Op::Number(value));
         }

@@ -22,7 +22,7 @@ mod value;
 
 pub use accuracy::{Accuracy, Preset};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
-pub use op::{Place, Variable};
+pub use op::{FormulaPlace, Variable};
 pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};

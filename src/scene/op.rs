@@ -5,7 +5,7 @@ pub(super) const STACK: usize = 32;
 
 /// Where and when a number of the scene is asked for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Place {
+pub struct FormulaPlace {
     /// Coordinate [length].
     pub x: f64,
     /// Coordinate [length].
@@ -82,7 +82,7 @@ impl Variable {
 }
 
 /// Runs postfix code, whose need of stack was checked when it was compiled.
-pub(super) fn evaluate(code: &[Op], place: &Place) -> f64 {
+pub(super) fn evaluate(code: &[Op], place: &FormulaPlace) -> f64 {
     let mut stack = [0.0; STACK];
     let mut height = 0;
     for op in code {

@@ -142,7 +142,7 @@ mod tests {
     fn parsed(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
         parse(file, text, settings, |_, _, _| Ok(()))
     }
-    use crate::scene::Place;
+    use crate::scene::FormulaPlace;
 
     const SCENE: &str = r#"{
   "plane": "strain",
@@ -285,7 +285,10 @@ mod tests {
             }
         }
         let many = "x+".repeat(4_999) + "x";
-        assert_eq!(Expression::parse(&many).unwrap().at(&Place { x: 1.0, ..Place::default() }), 5_000.0);
+        assert_eq!(
+            Expression::parse(&many).unwrap().at(&FormulaPlace { x: 1.0, ..FormulaPlace::default() }),
+            5_000.0
+        );
     }
 
     #[test]

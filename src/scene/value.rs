@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::expression::Expression;
-use super::op::{Place, Variable};
+use super::op::{FormulaPlace, Variable};
 
 /// A number, or the text of a formula such as `"5*cos(pi*x)"`.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,7 @@ pub enum Value {
 
 impl Value {
     /// The value at a place; not finite where a formula is not defined.
-    pub fn at(&self, place: &Place) -> f64 {
+    pub fn at(&self, place: &FormulaPlace) -> f64 {
         match self {
             Value::Number(value) => *value,
             Value::Expression(expression) => expression.at(place),

@@ -11,7 +11,7 @@ use crate::assembly::Model;
 use crate::history::{ModelState, Totals};
 use crate::output::HistoryRow;
 use crate::problem::{Problem, stiffness_number};
-use crate::scene::{Place, Value};
+use crate::scene::{FormulaPlace, Value};
 
 /// Takes the measures of one run.
 #[derive(Debug)]
@@ -105,7 +105,7 @@ fn on_interface(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Valu
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
         let [x, y, _] = point.position;
-        let place = Place { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
+        let place = FormulaPlace { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
         add(&mut sums, point.weight, *field, exact, &place);
     }
     Some(sums)
@@ -129,14 +129,14 @@ fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Optio
                 }
             }
             let area = weight * (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
-            let place = Place { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
+            let place = FormulaPlace { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
             add(&mut sums, area, moved, exact, &place);
         }
     }
     Some(sums)
 }
 
-fn add(sums: &mut [f64; 2], weight: f64, field: [f64; 2], exact: &[Value; 2], place: &Place) {
+fn add(sums: &mut [f64; 2], weight: f64, field: [f64; 2], exact: &[Value; 2], place: &FormulaPlace) {
     for d in 0..2 {
         let exact = exact[d].at(place);
         sums[0] += weight * (field[d] - exact).powi(2);
