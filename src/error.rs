@@ -15,11 +15,11 @@ pub enum Error {
     /// A wrong value, key or name in a text file the user wrote (scene, path, study).
     #[error("{at}: {what}; {help}")]
     Text {
-        /// Where in which file.
+        /// Position in a file.
         at: Box<At>,
-        /// What is wrong there.
+        /// The fault there.
         what: String,
-        /// What would have been right.
+        /// The remedy.
         help: String,
     },
     /// A geometry or mesh file that cannot be used.
@@ -27,9 +27,9 @@ pub enum Error {
     Mesh {
         /// The `.geo` or `.msh` file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// Its fault.
         what: String,
-        /// What would have been right.
+        /// The remedy.
         help: String,
     },
     /// gmsh read the geometry and refused it.
@@ -37,7 +37,7 @@ pub enum Error {
     Gmsh {
         /// The `.geo` file.
         file: PathBuf,
-        /// How gmsh ended, such as "ended with exit code 1".
+        /// End of gmsh, such as "ended with exit code 1".
         outcome: String,
         /// The last lines gmsh printed.
         tail: Vec<String>,
@@ -47,9 +47,9 @@ pub enum Error {
     Interface {
         /// Name of the interface in the scene.
         name: String,
-        /// What is wrong.
+        /// The fault.
         what: String,
-        /// What would have been right.
+        /// The remedy.
         help: String,
     },
     /// A body that the supports and interfaces do not hold.
@@ -79,15 +79,15 @@ pub enum Error {
     Program {
         /// Name of the program.
         program: String,
-        /// What happened.
+        /// The event.
         what: String,
-        /// What to do about it.
+        /// Help.
         help: String,
     },
     /// The file system refused.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried, such as "write".
+        /// The attempt, such as "write".
         action: &'static str,
         /// The file or folder.
         path: PathBuf,

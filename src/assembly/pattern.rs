@@ -1,4 +1,4 @@
-//! Where the lower triangle of the stiffness has entries, in compressed columns.
+//! Pattern of the lower triangle of the stiffness, in compressed columns.
 //!
 //! Nodes that share an element are neighbours; every pair of neighbours is a block of components × components.
 

@@ -1,4 +1,4 @@
-//! What can be typed.
+//! Arguments of the command line.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -140,7 +140,7 @@ Examples:
   midplane schema > geo/scene.schema.json        for editors that complete and check a scene
   midplane schema study > geo/study.schema.json  the same for a study")]
     Schema {
-        /// Of which file
+        /// File whose schema is printed
         #[arg(value_enum, default_value_t = Of::Scene)]
         of: Of,
     },
@@ -154,7 +154,7 @@ Example:
     },
 }
 
-/// What has a schema.
+/// Files that have a schema.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum Of {
     Scene,
@@ -168,7 +168,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What all commands on a scene share.
+/// Arguments of all commands on a scene.
 #[derive(Debug, Args)]
 pub(super) struct Common {
     /// A scene file, or the folder of a scene.json

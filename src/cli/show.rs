@@ -1,4 +1,4 @@
-//! What a run prints: a bar on a terminal, plain lines elsewhere.
+//! Output of a run: a bar on a terminal, plain lines elsewhere.
 
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -89,7 +89,7 @@ impl Show {
         }
     }
 
-    /// How the equations are solved, and the head of the table of increments.
+    /// The method of solution, and the head of the table of increments.
     fn begin(&self, total: usize, totals: &Totals) {
         let how = match totals.method {
             Method::Joined => "linear, one factor",

@@ -15,7 +15,7 @@
 //! curve, not from half-way between the chords: else the couples on neighbouring edges differ and shake the tractions
 //! by as much as h.
 //!
-//! What then remains between the faces is a gap. It turns with the mean of both edges, so that a rigid motion of the
+//! A gap remains between the faces. It turns with the mean of both edges, so that a rigid motion of the
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
 use super::place::{Facets, OnFacet, Place, Table};

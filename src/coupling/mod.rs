@@ -29,7 +29,7 @@ pub use place::{CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, Segmen
 use crate::error::Result;
 use crate::sparse::Csr;
 
-/// How the sides are joined.
+/// Scheme of the jump.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JumpScheme {
     /// Jump projected on the mid-plane's own grid, quadratic where both sides are.
@@ -40,7 +40,7 @@ pub enum JumpScheme {
     Pointwise,
 }
 
-/// Where the law acts within its interval.
+/// Points of an interval at which the law acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Points {
     /// Gauss points.
@@ -49,7 +49,7 @@ pub enum Points {
     Lobatto,
 }
 
-/// Whether the sides may lie apart.
+/// Admission of a distance between the sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Gap {
     /// They lie on each other, up to what chords of one curve differ by.
@@ -58,14 +58,14 @@ pub enum Gap {
     Open,
 }
 
-/// How to couple two sides.
+/// Scheme of a coupling.
 #[derive(Debug, Clone, Copy)]
 pub struct Scheme {
-    /// How the sides are joined.
+    /// Scheme of the jump.
     pub kind: JumpScheme,
-    /// Where the law acts within its interval.
+    /// Points of an interval at which the law acts.
     pub points: Points,
-    /// Whether the sides may lie apart.
+    /// Admission of a distance between the sides.
     pub gap: Gap,
 }
 
@@ -78,7 +78,7 @@ pub struct Coupling {
     pub sides: [Facets; 2],
     /// G: row `components · coefficient + component`, column `components · node + component`.
     pub jump: Csr,
-    /// Where the law acts, in order along C.
+    /// Law points, in order along C.
     pub points: Vec<LawPoint>,
     /// C in numbers.
     pub midplane: Midplane,

@@ -46,7 +46,7 @@ pub struct Place {
     pub frame: [[f64; 3]; 3],
     /// Way from the curve of A to that of B [length].
     pub apart: [f64; 3],
-    /// Where it stands on side A and on side B.
+    /// Its points on side A and on side B.
     pub on: [OnFacet; 2],
     /// Functions of the grid that are not zero on its cell: (node, value).
     pub functions: Vec<(usize, f64)>,
@@ -74,14 +74,14 @@ pub struct Table {
     pub points: Vec<Place>,
     /// The grid; empty for `pointwise`.
     pub nodes: Nodes,
-    /// What checks, reports and pictures ask of C.
+    /// C in numbers, for checks, reports and pictures.
     pub midplane: Midplane,
 }
 
 /// C in numbers.
 #[derive(Debug, Clone)]
 pub struct Midplane {
-    /// Where the coordinates of the facets are counted from.
+    /// Origin of the coordinates of the facets.
     pub origin: [f64; 3],
     /// Length of C [length].
     pub length: f64,

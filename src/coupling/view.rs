@@ -1,4 +1,4 @@
-//! What checks, reports and pictures ask of the sides of a coupling.
+//! Sides of a coupling, as checks, reports and pictures see them.
 
 use super::Coupling;
 

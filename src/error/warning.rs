@@ -1,10 +1,10 @@
-//! What the user should know before believing a result: a code, where and why, and what to do about it.
+//! Warnings: a code, the place and the reason, and help.
 //!
 //! docs/WARNINGS.md has a section for every code; tests/warnings.rs sees to that.
 
 use std::fmt;
 
-/// What may be warned of, in the order of the codes W01, W02, …
+/// Codes of warnings, in the order W01, W02, …
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Code {
     /// Springs so stiff that rounding reaches the tractions.
@@ -92,9 +92,9 @@ impl fmt::Display for Code {
 pub struct Warning {
     /// Its code.
     pub code: Code,
-    /// Where and why, one line.
+    /// Place and reason, one line.
     pub what: String,
-    /// What to do about it, one line.
+    /// Help, one line.
     pub help: String,
 }
 

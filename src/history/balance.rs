@@ -2,7 +2,7 @@
 
 use crate::assembly::Model;
 
-/// What is left of all loads and reactions.
+/// Resultant of all loads and reactions.
 #[derive(Debug, Clone, Copy)]
 pub struct Resultant {
     /// The larger of the resultant force and the moment over half the extent of the model [force].

@@ -1,4 +1,4 @@
-//! Where the time goes.
+//! Time by stage of a run.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;

@@ -11,11 +11,11 @@ pub(in crate::history) struct InterfaceResponse {
     pub(in crate::history) interface: usize,
     /// Jump (n, t) at the law points.
     pub(in crate::history) jumps: Vec<[f64; 2]>,
-    /// What the laws answered at its law points.
+    /// Responses of the law at its law points.
     pub(in crate::history) memory: Vec<PointResponse>,
 }
 
-/// What a law point remembers of an answer.
+/// Response of a law point, as far as it is kept.
 #[derive(Debug, Clone, Default)]
 pub(in crate::history) struct PointResponse {
     pub(in crate::history) state: law::State,
@@ -33,7 +33,7 @@ pub(in crate::history) struct PointResponse {
 pub(in crate::history) struct Converged {
     /// Displacements and reactions, if they were recovered.
     pub(in crate::history) solution: Option<NodalSolution>,
-    /// What stands for them otherwise.
+    /// Measures in their place otherwise.
     pub(in crate::history) ledger: Option<Ledger>,
     /// Joints whose jumps are unknowns.
     pub(in crate::history) interfaces: Vec<InterfaceResponse>,

@@ -1,4 +1,4 @@
-//! How a march ends before its last increment.
+//! Errors that end a history before its last increment.
 
 use crate::error::Error;
 use crate::problem::{BoundStep, Problem};

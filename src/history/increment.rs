@@ -1,4 +1,4 @@
-//! Where in the history an increment stands.
+//! An increment and its place in the history.
 
 use crate::problem::BoundStep;
 
@@ -24,7 +24,7 @@ pub struct Increment<'a> {
 }
 
 impl<'a> Increment<'a> {
-    /// Of a step, after so many increments over all steps.
+    /// The start of a step, after so many increments over all steps.
     pub(super) fn of(step_number: usize, step: &'a BoundStep, increment: usize) -> Increment<'a> {
         let (number, load_factor, iterations) = (0, 0.0, 0);
         Increment { step_number, step, number, increment, load_factor, iterations, last: false, ended: false }

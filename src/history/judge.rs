@@ -57,7 +57,7 @@ pub(super) fn judge(
     Ok(Judged { error, cracked, solved, passed, work: work.abs() })
 }
 
-/// What a part is worth.
+/// Error of a part, and the work in it.
 pub(super) struct Judged {
     /// Its error over the tolerance.
     pub(super) error: f64,

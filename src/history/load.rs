@@ -13,7 +13,7 @@ use crate::problem::BoundStep;
 use crate::scene::Fields;
 use crate::solver::{LinearMeasure, Ramp};
 
-/// Where a step in equal increments stands.
+/// Progress of a step in equal increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct LoadStep {
     /// Number of the last increment.

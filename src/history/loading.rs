@@ -22,7 +22,7 @@ pub(super) struct StepLoad<'s> {
 pub(super) struct LoadForces {
     /// External forces [force].
     pub(super) force: Vec<f64>,
-    /// What is left of released reactions [force].
+    /// Remainder of released reactions [force].
     pub(super) released: Vec<f64>,
     /// External forces and released reactions less the initial tractions' [force].
     pub(super) loaded: Vec<f64>,
@@ -50,7 +50,7 @@ impl StepLoad<'_> {
     }
 }
 
-/// What a step starts from.
+/// Start of a step.
 #[derive(Debug)]
 pub(super) struct Start<'a> {
     problem: &'a Problem,
@@ -66,7 +66,7 @@ impl<'a> Start<'a> {
         [&self.u, &self.reactions]
     }
 
-    /// Of displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
+    /// Start from displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
     pub(super) fn new(
         problem: &'a Problem,
         step: &'a BoundStep,
@@ -132,7 +132,7 @@ impl<'a> Start<'a> {
         }
     }
 
-    /// What work, energy and history need of the displacements when these are not recovered: see `Ledger`.
+    /// Measures that work, energy and history need when these are not recovered: see `Ledger`.
     pub(super) fn measures(&self, ramp: &Ramp) -> Vec<LinearMeasure> {
         let terms = |at: &dyn Fn(usize) -> f64| -> Vec<(usize, f64)> {
             (0..self.u.len()).map(|i| (i, at(i))).filter(|(_, value)| *value != 0.0).collect()

@@ -71,7 +71,7 @@ pub struct History<'a> {
     loads: Option<(Start<'a>, Option<Ramp>)>,
 }
 
-/// Where a history stands.
+/// Position of a history.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Position {
     /// Number of the step.

@@ -23,7 +23,7 @@ use crate::solver::{Ramp, Unconverged};
 /// Most increments per increment of the scene.
 const MOST: usize = 1000;
 
-/// Where a step along the path stands.
+/// Progress of a step along the path, with its last increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct PathStep {
     /// Number of the last increment.

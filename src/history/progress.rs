@@ -20,7 +20,7 @@ pub(super) struct LoadIncrement<'a, 'b> {
     pub(super) complete: bool,
 }
 
-/// Where a step by load factor stands.
+/// Progress of a step by load factor.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct StepProgress {
     /// Load factor.
@@ -59,7 +59,7 @@ impl StepProgress {
     }
 }
 
-/// What a step has reached.
+/// The last equilibrium that a step has reached.
 pub(super) struct Reached {
     /// Number of the increment within its step.
     pub(super) number: usize,
@@ -75,7 +75,7 @@ pub(super) struct Reached {
     pub(super) lost: Option<Unconverged>,
 }
 
-/// Where a step along the path stands.
+/// Progress of a step along the path.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct PathProgress {
     pub(super) load_factor: f64,

@@ -45,7 +45,7 @@ pub struct ModelState {
     pub released: f64,
     /// Largest energy so far [force × length].
     largest: f64,
-    /// What the step knows without displacements; none outside such a step.
+    /// Measures of a step without displacements; none outside such a step.
     ledger: Option<Ledger>,
     /// Joints whose jumps were found as unknowns, not taken from displacements.
     found: Vec<bool>,

@@ -12,7 +12,7 @@ use crate::solver::Unconverged;
 
 /// A step that changes more than this of what is carried is divided, unless it may change much.
 const CHANGE: f64 = 0.3;
-/// What is carried counts at least by this part of the most.
+/// Least part of the most that was carried, for changes relative to it.
 const LEAST_CARRIED: f64 = 0.2;
 /// Law points that are named.
 const NAMED: usize = 3;

@@ -28,7 +28,7 @@ pub struct Totals {
     pub factor_entries: usize,
     /// Largest residual of all increments.
     pub residual: f64,
-    /// Where the load factor turned on the path of equilibria: number of the increment, step, load factor.
+    /// Turning points of the load factor on the path of equilibria: number of the increment, step, load factor.
     pub turns: Vec<(usize, String, f64)>,
     /// Snaps to another branch of equilibria.
     pub snaps: Vec<Snap>,
@@ -80,7 +80,7 @@ const ENERGY: f64 = 10.0;
 const IN_BALANCE: f64 = 1e-6;
 
 impl Totals {
-    /// What the user should know of how the increments went.
+    /// Warnings of how the increments went.
     pub fn warnings(&self, path_tolerance: f64) -> Vec<Warning> {
         let mut warnings = Vec::new();
         if let Some(Snap { step, load_factor, interface, at: [x, y], .. }) = self.snaps.first() {

@@ -1,4 +1,4 @@
-//! Where no equilibrium continues the path: the load goes on while a viscosity holds the jumps back.
+//! Viscous stretches, for paths that no equilibrium continues: the load goes on while a viscosity holds the jumps back.
 //!
 //! ```text
 //! A(x) + q(r) + G c (r − r₀) = b(λ)        c = η / Δλ, then r₀ ← r, and the states of the laws with it

@@ -8,7 +8,7 @@ pub struct Inadmissible {
     pub key: &'static str,
     /// The broken inequality with the numbers in it.
     pub what: String,
-    /// What would have been right.
+    /// The remedy.
     pub help: String,
 }
 

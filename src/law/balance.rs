@@ -7,7 +7,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{Integration, Law, Response, State};
 
-/// What is prescribed of one component.
+/// Prescribed value of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Prescribed {
     /// The jump [length].

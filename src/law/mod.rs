@@ -47,7 +47,7 @@ pub enum Law {
     Cracking(Cracking),
 }
 
-/// How a law that depends on the way divides the way from the old jump to the new one.
+/// Integration of a law that depends on the way from the old jump to the new one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Integration {
     /// Second order with sub-steps chosen so that the traction is within this tolerance, relative to the larger of
@@ -57,7 +57,7 @@ pub enum Integration {
     BackwardEuler(usize),
 }
 
-/// What a law point remembers from one increment to the next.
+/// State of a law point from one increment to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct State {
     /// Jump (n, t) at the last accepted increment [length].
@@ -72,7 +72,7 @@ pub struct State {
     pub status: u8,
 }
 
-/// What a law answers.
+/// Response of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
     /// Traction (n, t) [stress].
@@ -102,7 +102,7 @@ pub enum Unresolved {
     /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
     #[error("the traction leaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
     SnapBack {
-        /// Where on the way the traction snaps.
+        /// Fraction of the way at which the traction snaps.
         jump: Vector2<f64>,
     },
 }
@@ -117,7 +117,7 @@ impl Law {
         }
     }
 
-    /// What is admissible but likely to disappoint.
+    /// Warnings of admissible parameters.
     pub fn warnings(&self) -> Vec<Warning> {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => Vec::new(),

@@ -23,7 +23,7 @@ use super::{Integration, Law, State, Strength};
 pub struct LawPath {
     /// Segments, one after the other.
     pub program: Vec<PathSegment>,
-    /// Where the point starts; by default intact, at rest, under the interface's initial traction.
+    /// Initial state of the point; by default intact, at rest, under the interface's initial traction.
     #[serde(default)]
     pub initial: Option<Initial>,
 }
@@ -39,7 +39,7 @@ pub struct PathSegment {
     pub points: usize,
 }
 
-/// What is prescribed of one component, and its values at the ends of the segment.
+/// Control of one component, and its values at the ends of the segment.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComponentControl {
@@ -97,15 +97,15 @@ pub enum PathError {
     Program {
         /// The key to blame, such as `program[1].n.start`.
         key: String,
-        /// What is wrong.
+        /// The fault.
         what: String,
-        /// What would have been right.
+        /// The remedy.
         help: String,
     },
     /// The law has no answer beyond some point.
     #[error("no equilibrium at s = {s:.6}: {reason}")]
     NoEquilibrium {
-        /// Where on the path.
+        /// Position on the path.
         s: f64,
         /// Why.
         reason: String,
@@ -176,7 +176,7 @@ pub fn write_csv(rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
 }
 
 impl PathSegment {
-    /// What is prescribed at a fraction of the segment.
+    /// Prescribed values at a fraction of the segment.
     fn target(&self, fraction: f64) -> [Prescribed; 2] {
         [self.n, self.t].map(|ComponentControl { control, start, end }| {
             let value = if fraction >= 1.0 { end } else { start + fraction * (end - start) };

@@ -43,7 +43,7 @@ pub(super) fn orient(cells: &mut Cells, points: &[[f64; 2]], tags: &[u64]) -> Re
 const SHAPES: [Shape; 5] =
     [Shape::Triangle3, Shape::Triangle6, Shape::Quadrilateral4, Shape::Quadrilateral8, Shape::Quadrilateral9];
 
-/// Where the Jacobian is looked at: the nodes and the points of the stiffness rule.
+/// Points at which the Jacobian is checked: the nodes and the points of the stiffness rule.
 fn probes(shape: Shape) -> Vec<Values> {
     let nodes = shape.node_points().iter().map(|p| shape.values(p[0], p[1]));
     let rule = shape.stiffness_rule().iter().map(|q| shape.values(q[0], q[1]));

@@ -58,7 +58,7 @@ General.NumThreads = 1;
 Mesh.MaxNumThreads1D = 1;
 Mesh.MaxNumThreads2D = 1;
 ";
-/// How late the end of gmsh may be noticed.
+/// Largest delay in noticing the end of gmsh.
 const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
 impl Default for Gmsh {

@@ -1,4 +1,4 @@
-//! What a .geo file consists of: the files it includes, the names it mentions, the parameters it declares.
+//! The sources of a .geo file: the files it includes, the names it mentions, the parameters it declares.
 
 use std::path::{Path, PathBuf};
 

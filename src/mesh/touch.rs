@@ -1,4 +1,4 @@
-//! Where bodies touch: pairs of boundary edges that lie on each other, gathered into connected lines.
+//! Contacts of bodies: pairs of boundary edges that lie on each other, gathered into connected lines.
 //!
 //! ```text
 //!   b   ●──────●────────●──●        two edges touch if they run against each other, share some length, and are as
@@ -17,7 +17,7 @@ use crate::error::Result;
 
 /// Touching edges may be this far apart, and more where the boundary turns. Of their length.
 const NEAR: f64 = 1e-3;
-/// What a turn by one radian adds: two chords of a circle are up to 1/8 of their turn and length apart.
+/// Distance that a turn by one radian adds: two chords of a circle are up to 1/8 of their turn and length apart.
 const BEND: f64 = 0.25;
 /// A turn above this is a corner, not a bend [rad].
 const CORNER: f64 = 0.9;
@@ -49,7 +49,7 @@ struct BoundaryLine {
     ends: [[f64; 2]; 2],
     tangent: [f64; 2],
     length: f64,
-    /// How far off another body may be and still touch.
+    /// Largest distance of another body that still touches.
     reach: f64,
 }
 

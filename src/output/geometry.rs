@@ -8,7 +8,7 @@ use super::vtu::{Array, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::error::Result;
 
-/// What a line or point of the file is.
+/// Kinds of lines and points in the file.
 #[derive(Debug, Clone, Copy)]
 enum GeometryKind {
     /// A segment of C.

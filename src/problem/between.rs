@@ -17,7 +17,7 @@ use crate::scene::{Interface, JOINED, Scene};
 /// An interface and the side of it.
 type InterfaceSide = (usize, usize);
 
-/// What interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
+/// Edges that interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
 #[derive(Default)]
 pub(super) struct JoinedEdges {
     edges: HashMap<(usize, [usize; 3]), Vec<InterfaceSide>>,

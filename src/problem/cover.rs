@@ -15,7 +15,7 @@ const WHOLE: f64 = 1e-9;
 /// An edge, from its smaller to its larger node of the model.
 type EdgeKey = [usize; 2];
 
-/// What an interface takes of an edge.
+/// Part of an edge that an interface takes.
 struct EdgeShare {
     interface: usize,
     from: f64,
@@ -69,7 +69,7 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
     Ok(warnings)
 }
 
-/// What the interfaces take of every edge, in order along it.
+/// Parts of every edge that interfaces take, in order along it.
 fn taken(model: &Model) -> BTreeMap<EdgeKey, Vec<EdgeShare>> {
     let mut edges: BTreeMap<EdgeKey, Vec<EdgeShare>> = BTreeMap::new();
     for (interface, of_model) in model.interfaces.iter().enumerate() {

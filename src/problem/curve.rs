@@ -15,13 +15,13 @@ pub(super) struct PlannedInterface<'a> {
     pub name: String,
     /// Its key in the scene's `interfaces`.
     pub entry: &'a str,
-    /// What the scene says of it.
+    /// Its statement in the scene.
     pub stated: &'a Interface,
     /// Curves of sides A and B.
     pub sides: [Vec<Curve>; 2],
 }
 
-/// What decides how an interface is joined: all that `PlannedInterface::join` may read of what the scene states.
+/// All that decides how an interface is joined, and all that `PlannedInterface::join` may read of what the scene states.
 #[derive(Debug, Clone, Copy)]
 pub struct Joining<'a> {
     pub(super) sides: [&'a Option<OneOrMany>; 2],
@@ -53,7 +53,7 @@ impl<'a> Joining<'a> {
     }
 }
 
-/// How the interfaces of a scene are joined, by their keys: scenes that agree in it, on the same meshes of the same subdomains,
+/// Joinings of the interfaces of a scene, by their keys: scenes that agree in it, on the same meshes of the same subdomains,
 /// have the same interfaces.
 pub fn joinings(scene: &Scene) -> Vec<(&str, Joining<'_>)> {
     scene.interfaces.iter().map(|(entry, stated)| (entry.as_str(), Joining::of(stated))).collect()
@@ -63,7 +63,7 @@ pub fn joinings(scene: &Scene) -> Vec<(&str, Joining<'_>)> {
 pub(super) struct Curve {
     /// Number of its body.
     pub subdomain: usize,
-    /// How messages call it.
+    /// Its name in messages.
     pub name: String,
     /// Its edges.
     pub edges: Vec<Edge>,

@@ -22,7 +22,7 @@ impl Gaps {
         }
     }
 
-    /// What the scene says, on the geometry of an interface; without a word the faces touch.
+    /// The gap that a scene states, on the geometry of an interface; without one the faces touch.
     pub(super) fn new(gap: Option<InitialGap>, interface: &InterfaceOperator) -> Gaps {
         match gap {
             None => Gaps::Uniform(0.0),

@@ -139,7 +139,7 @@ pub(super) fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> R
     Ok(given)
 }
 
-/// What a step prescribes: (key, group, direction, value), no value for zero.
+/// Displacements prescribed by a step: (key, group, direction, value), no value for zero.
 fn prescribed(step: &Step) -> impl Iterator<Item = (&'static str, &str, Direction, Option<&Value>)> {
     let fixed = step.fix.iter().flat_map(|(group, directions)| {
         directions.iter().map(move |&direction| ("fix", group.as_str(), direction, None))

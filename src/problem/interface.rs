@@ -23,7 +23,7 @@ pub struct BoundInterface {
 }
 
 impl BoundInterface {
-    /// What a scene states of an interface, on its geometry.
+    /// Binds the statement of an interface on its geometry.
     pub(super) fn new(
         scene: &Scene,
         model: &Model,

@@ -16,7 +16,7 @@ pub(super) struct BoundLoad {
     values: [Quantity; 2],
 }
 
-/// What a load acts on.
+/// Target of a load.
 #[derive(Debug, Clone)]
 enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
@@ -85,7 +85,7 @@ impl BoundLoad {
         }
     }
 
-    /// Whether load_factor occurs in it, so that it does not ramp.
+    /// True if load_factor occurs in it, so that it does not ramp.
     pub(super) fn follows_load_factor(&self) -> bool {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))
     }

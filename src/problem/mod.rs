@@ -51,9 +51,9 @@ use crate::scene::{self, Scene};
 pub struct Problem {
     /// Bodies and interfaces.
     pub model: Model,
-    /// What acts on each of its interfaces.
+    /// Laws and initial states of the interfaces.
     pub interfaces: Vec<BoundInterface>,
-    /// How equilibrium is found where an interface is not elastic.
+    /// Settings of the search for equilibrium where an interface is not elastic.
     pub solution: scene::Solution,
     /// Supports and loads step by step.
     pub steps: Vec<BoundStep>,
@@ -63,7 +63,7 @@ pub struct Problem {
     pub probes: Vec<(String, BoundProbe)>,
     /// Groups that hold something, for their reactions.
     pub reactions: Vec<Reaction>,
-    /// What the user should know before believing the result.
+    /// Warnings so far.
     pub warnings: Vec<Warning>,
 }
 

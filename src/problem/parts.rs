@@ -83,7 +83,7 @@ fn in_order(files: &[Mesh], file_of: &[usize]) -> bool {
     files.len() == file_of.len() && file_of.iter().enumerate().all(|(number, &file)| number == file)
 }
 
-/// What no subdomain takes of a mesh that some share.
+/// Surfaces of a shared mesh that no subdomain takes.
 fn left_out(mesh: &Mesh, owner: &[usize]) -> Option<Warning> {
     let free = |cells: &Vec<usize>| cells.iter().all(|&cell| owner[cell] == usize::MAX);
     let unused = mesh.groups.iter().filter(|(_, group)| {

@@ -1,4 +1,4 @@
-//! What is to be joined: every interface of the scene with the edges of its two sides.
+//! Interfaces to be: every interface of the scene with the edges of its two sides.
 
 use std::collections::HashMap;
 

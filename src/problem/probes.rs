@@ -38,7 +38,7 @@ pub enum BoundProbe {
     WorkExternal,
 }
 
-/// What probes look at.
+/// Values that probes read.
 #[derive(Debug, Clone, Copy)]
 pub struct ProbeInput<'a> {
     /// Displacements.

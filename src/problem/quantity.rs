@@ -30,7 +30,7 @@ impl Quantity {
         self.value.constant()
     }
 
-    /// Whether it depends on a variable.
+    /// True if it depends on a variable.
     pub(super) fn uses(&self, variable: Variable) -> bool {
         self.value.uses(variable)
     }

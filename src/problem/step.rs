@@ -19,7 +19,7 @@ pub struct BoundStep {
     pub name: String,
     /// Number of increments.
     pub increments: usize,
-    /// What is prescribed from increment to increment.
+    /// Control from increment to increment.
     pub control: Control,
     /// Held dofs.
     pub constrained: Vec<bool>,

@@ -1,4 +1,4 @@
-//! What the user should know of an interface before believing the result.
+//! Warnings of interfaces.
 
 use super::curve::PlannedInterface;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};

@@ -25,12 +25,12 @@ use crate::output::HistoryRow;
 use crate::problem::Problem;
 use crate::scene::Fields;
 
-/// What the user asked for.
+/// Options of a run.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The scene file or its folder.
     pub scene: PathBuf,
-    /// Where results go; `results/<scene>` if absent.
+    /// Folder of the results; `results/<scene>` if absent.
     pub out: Option<PathBuf>,
     /// `KEY=VALUE` settings on top of the scene.
     pub settings: Vec<String>,
@@ -48,7 +48,7 @@ impl Options {
     }
 }
 
-/// What happens, for whoever shows it.
+/// Events of a run, to be shown.
 #[derive(Debug)]
 pub enum Event<'a> {
     /// The run has begun; the stage under way can be read from now on.
@@ -87,10 +87,10 @@ pub enum Event<'a> {
     Reused(&'a str),
 }
 
-/// Whoever listens to the run.
+/// Receiver of events.
 pub type Listener<'a> = &'a mut dyn FnMut(Event);
 
-/// What a run leaves behind.
+/// Outcome of a run.
 #[derive(Debug)]
 pub struct RunDone {
     /// The results folder.

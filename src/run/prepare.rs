@@ -23,7 +23,7 @@ pub struct Prepared {
     pub name: String,
     /// The scene bound to its meshes.
     pub problem: Problem,
-    /// Where results go.
+    /// Folder of the results.
     pub folder: Folder,
     /// Time so far.
     pub clock: Clock,
@@ -122,7 +122,7 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     Ok(Ready { scene, name, folder, clock, files, file_of })
 }
 
-/// Where a mesh comes from.
+/// Origin of a mesh.
 #[derive(Debug, PartialEq)]
 enum Origin {
     Mesh(PathBuf),

@@ -96,7 +96,7 @@ fn set_parameter(subdomain: &mut Map<String, Value>, name: &str, value: f64) {
     }
 }
 
-/// Whether the `.geo` of a subdomain declares a parameter, and its number there; a file that is not there is the
+/// The number of a parameter that the `.geo` of a subdomain declares, if it declares it; a file that is not there is the
 /// business of the mesher.
 fn declared(subdomain: &Map<String, Value>, source: &Source, name: &str) -> Result<Option<Option<f64>>> {
     let Some(geo) = subdomain.get("geo").and_then(Value::as_str) else { return Ok(None) };

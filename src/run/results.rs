@@ -24,7 +24,7 @@ pub(super) struct Results<'a> {
 }
 
 impl<'a> Results<'a> {
-    /// Of a run that has not begun: nothing is written yet.
+    /// Results of a run that has not begun: nothing is written yet.
     pub(super) fn new(scene: &'a Scene, name: &'a str, problem: &'a Problem, folder: Folder) -> Results<'a> {
         let (writer, balance, totals, stored) = (None, None, Totals::default(), 0);
         Results { scene, name, problem, folder, writer, balance, totals, stored }

@@ -1,4 +1,4 @@
-//! What several runs of one process share: mesh files, meshes, interfaces, condensed bodies.
+//! Data that several runs of one process share: mesh files, meshes, interfaces, condensed bodies.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ use crate::solver::SubdomainCache;
 /// Memory for condensed bodies where the system does not tell what it has [bytes].
 const ROOM: u64 = 1 << 30;
 
-/// What the runs of one process share. Runs in several threads may use it at a time.
+/// Data that the runs of one process share. Runs in several threads may use it at a time.
 #[derive(Debug)]
 pub struct Shared {
-    /// Where the meshes of all runs are.
+    /// Folder of the meshes of all runs.
     folder: PathBuf,
     gmsh: Gmsh,
     meshing: Mutex<()>,

@@ -64,7 +64,7 @@ struct SolutionSummary {
     /// Parts that were sought and not kept.
     rejected: usize,
     factorisations: usize,
-    /// Where the path of equilibria turned: after which increment, in which step, at which load factor.
+    /// Turning points of the path of equilibria: after which increment, in which step, at which load factor.
     turns: Vec<(usize, String, f64)>,
     /// Snaps to another branch of equilibria.
     snaps: Vec<Snap>,

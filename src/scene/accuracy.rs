@@ -17,14 +17,14 @@ pub enum Accuracy {
     Fine,
 }
 
-/// What a preset sets.
+/// Values of a preset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preset {
     /// Factor on the parameters that the scene lists.
     pub density: f64,
     /// Order of the elements.
     pub order: u8,
-    /// How unmatched sides are joined.
+    /// Coupling of unmatched sides.
     pub coupling: CouplingKind,
     /// Largest out-of-balance force.
     pub tolerance: f64,
@@ -41,7 +41,7 @@ impl Accuracy {
     pub const ALL: [(&str, Accuracy); 3] =
         [("draft", Accuracy::Draft), ("normal", Accuracy::Normal), ("fine", Accuracy::Fine)];
 
-    /// What it sets.
+    /// Its values.
     pub fn preset(self) -> Preset {
         let coupling = CouplingKind::Projected;
         let preset = |density, order, tolerance, law_tolerance, path_tolerance, increments| Preset {

@@ -1,4 +1,4 @@
-//! What a scene must satisfy beyond its types: names that exist, numbers that mean something.
+//! Validation of a scene beyond its types: names that exist, numbers that mean something.
 
 use super::named::{check_group, check_name};
 use super::{Load, Plane, Scene, Step, Subdomain, split_group};

@@ -50,7 +50,7 @@ impl Expression {
         }
     }
 
-    /// Whether it depends on a variable.
+    /// True if it depends on a variable.
     pub fn uses(&self, variable: Variable) -> bool {
         self.code.iter().any(|op| matches!(op, Op::Variable(used) if *used == variable))
     }

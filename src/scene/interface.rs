@@ -23,13 +23,13 @@ pub struct Interface {
     /// of the first (side A) touches one of the second, there is an interface `NAME~A~B`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
-    /// How the unmatched sides are joined.
+    /// Coupling of the unmatched sides.
     #[serde(default)]
     pub coupling: CouplingKind,
     /// Polynomial order of the grid of `projected`.
     #[serde(default)]
     pub grid: Grid,
-    /// Where in its interval the law acts.
+    /// Points of an interval at which the law acts.
     #[serde(default)]
     pub quadrature: Quadrature,
     /// The law.
@@ -37,7 +37,7 @@ pub struct Interface {
     /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
     #[serde(default = "law_tolerance")]
     pub law_tolerance: f64,
-    /// How far apart the sides are to the law; without it they touch, whatever the meshes say. For `coulomb` only.
+    /// Initial distance of the sides to the law; without it they touch, whatever the meshes say. For `coulomb` only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_gap: Option<InitialGap>,
     /// Initial traction (n, t) [stress] (paper eq. 10); in a formula s runs along chain A with n on its left.
@@ -61,7 +61,7 @@ pub enum OneOrMany {
 pub enum InitialGap {
     /// The same everywhere [length]; below zero the sides overlap and press on each other.
     Uniform(f64),
-    /// What it says.
+    /// As drawn.
     Drawn(DrawnGap),
 }
 
@@ -73,7 +73,7 @@ pub enum DrawnGap {
     Geometry,
 }
 
-/// How two unmatched sides are joined.
+/// Coupling of two unmatched sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum CouplingKind {

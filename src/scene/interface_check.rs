@@ -1,4 +1,4 @@
-//! What an interface must satisfy beyond its types: two sides on two subdomains, or two patterns that match some.
+//! Validation of interfaces beyond their types: two sides on two subdomains, or two patterns that match some.
 
 use wildmatch::WildMatch;
 

@@ -57,7 +57,7 @@ pub struct Scene {
     pub interfaces: IndexMap<String, Interface>,
     /// The load history, in order.
     pub steps: Vec<Step>,
-    /// How equilibrium is found where an interface is not elastic.
+    /// Settings of the search for equilibrium where an interface is not elastic.
     #[serde(default)]
     pub solution: Solution,
     /// A preset of the knobs that trade speed for accuracy; what the scene states stays. Absent: the scene as it is.
@@ -66,10 +66,10 @@ pub struct Scene {
     /// Parameters of `.geo` files that `accuracy` multiplies, `<subdomain>.<name>`: counts, of which more is finer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub density: Vec<String>,
-    /// What is written.
+    /// Results that are written.
     #[serde(default)]
     pub output: Output,
-    /// Where the scene came from; filled by the reader.
+    /// File and positions that the scene came from; filled by the reader.
     #[serde(skip)]
     pub source: Source,
 }
@@ -127,7 +127,7 @@ pub struct Step {
     /// Equal parts in which the step is applied.
     #[serde(default = "one_increment")]
     pub increments: usize,
-    /// What is prescribed from increment to increment.
+    /// Control from increment to increment.
     #[serde(default)]
     pub control: Control,
     /// Directions held at zero, by group.
@@ -189,7 +189,7 @@ pub enum Load {
     Force([Value; 2]),
 }
 
-/// What is written.
+/// Results that are written.
 #[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {

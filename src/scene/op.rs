@@ -3,7 +3,7 @@
 /// Values that an expression may have to remember at once.
 pub(super) const STACK: usize = 32;
 
-/// Where and when a number of the scene is asked for.
+/// Place and load factor at which a formula is evaluated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FormulaPlace {
     /// Coordinate [length].
@@ -16,7 +16,7 @@ pub struct FormulaPlace {
     pub load_factor: f64,
 }
 
-/// What an expression may depend on.
+/// Variables of a formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// Coordinate x.
@@ -34,9 +34,9 @@ pub enum Variable {
 pub struct FormulaFault {
     /// Bytes of the text that are wrong.
     pub span: std::ops::Range<usize>,
-    /// What is wrong, with its position and the text around it.
+    /// The fault, with its position and the text around it.
     pub what: String,
-    /// What would have been right.
+    /// The remedy.
     pub help: String,
 }
 

@@ -1,9 +1,9 @@
-//! How equilibrium is found: knobs that trade speed for accuracy. A linear scene uses none of them.
+//! Settings of the search for equilibrium: knobs that trade speed for accuracy. A linear scene uses none of them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How equilibrium is found.
+/// Settings of the search for equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solution {
@@ -24,7 +24,7 @@ pub struct Solution {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Strategy {
-    /// What is estimated to take less work. A linear scene is solved for its displacements, its stiff interfaces for their jumps.
+    /// The form that is estimated to take less work. A linear scene is solved for its displacements, its stiff interfaces for their jumps.
     #[default]
     Auto,
     /// The jump coefficients: the bodies are factored once, an iteration touches the interfaces only.
@@ -46,7 +46,7 @@ pub enum Tangent {
     Initial,
 }
 
-/// What is prescribed from increment to increment of a step.
+/// Control from increment to increment of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Control {

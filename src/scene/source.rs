@@ -1,4 +1,4 @@
-//! Where a key of the scene stands in its file, so that every message can name the line.
+//! Positions of the keys of a scene in its file, so that every message can name the line.
 
 use std::{collections::HashMap, ops::Range, path::PathBuf};
 

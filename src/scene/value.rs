@@ -34,7 +34,7 @@ impl Value {
         }
     }
 
-    /// Whether the value depends on a variable.
+    /// True if the value depends on a variable.
     pub fn uses(&self, variable: Variable) -> bool {
         match self {
             Value::Number(_) => false,

@@ -6,7 +6,7 @@ use super::{Form, Respond};
 /// A point that resists less than this part of its intact stiffness counts as if it did in the Jacobian: what nothing holds
 /// and nothing pushes then stays where it is.
 pub(super) const FREE: f64 = 1e-12;
-/// Where no point of an interface resists an opening, this part, and its sides are moved apart at first by the second one of the
+/// The same part where no point of an interface resists an opening; its sides are moved apart at first by the second one of the
 /// largest jump: rounding must not make them touch.
 pub(super) const LOOSE: f64 = 1e-10;
 const APART: f64 = 1e-7;

@@ -1,4 +1,4 @@
-//! What one body has to do with the interfaces of `blocks`: how the jumps it takes part in follow from forces on them and from
+//! Contribution of one body to the interfaces of `blocks`: the jumps it takes part in from forces on them and from
 //! its rigid motions.
 //!
 //! ```text
@@ -12,7 +12,7 @@ use faer::{Accum, Mat, Par};
 use super::modes::FloatingModes;
 use crate::assembly::InterfaceOperator;
 
-/// What one body has to do with the interfaces.
+/// Contribution of one body to the interfaces.
 #[derive(Debug)]
 pub(super) struct SubdomainBlock {
     /// Unknowns of the jumps that it takes part in.
@@ -27,7 +27,7 @@ pub(super) struct SubdomainBlock {
 }
 
 impl SubdomainBlock {
-    /// Of body `b`. `first`: first unknown of every interface; `start`: the body's first rigid motion among the unknowns, and
+    /// The contribution of body `b`. `first`: first unknown of every interface; `start`: the body's first rigid motion among the unknowns, and
     /// how many there could be.
     pub(super) fn new(
         subdomains: &FloatingModes,

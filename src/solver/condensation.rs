@@ -25,7 +25,7 @@ pub struct Continuum {
     separators: Vec<Range<usize>>,
     /// Place of every dof in the separator.
     pub(super) places: Vec<Option<u32>>,
-    /// Of all nodes, one after the other.
+    /// Components of all nodes, one after the other.
     coordinates: Vec<f64>,
     /// Nodes of the pieces of every body that falls into several.
     pieces: Vec<Vec<Vec<usize>>>,
@@ -33,7 +33,7 @@ pub struct Continuum {
     found: Mutex<CacheHits>,
 }
 
-/// What was on the cache, by number of the body.
+/// Hits of the cache, by number of the body.
 #[derive(Debug, Clone, Default)]
 pub struct CacheHits {
     /// Bodies with their stiffness.
@@ -88,7 +88,7 @@ impl Continuum {
         Ok(Continuum { subdomains, dofs, separators, places, coordinates, pieces, cache, found })
     }
 
-    /// What was on the cache so far.
+    /// Hits of the cache so far.
     pub fn found(&self) -> CacheHits {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -216,7 +216,7 @@ impl Continuum {
         clear(&mut x);
     }
 
-    /// What the separator needs of several right-hand sides.
+    /// Condensed right-hand sides.
     pub(super) fn on_separator(&self, condensation: &Condensation, b: &[Vec<f64>]) -> Mat<f64> {
         self.forward(condensation, b).1
     }

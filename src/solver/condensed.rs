@@ -135,7 +135,7 @@ impl Form for Condensed<'_> {
         residual
     }
 
-    /// What the springs would make of the misfit, over what the interfaces carry. Where they carry nothing a small part of
+    /// Forces of the base stiffness for the misfit, over what the interfaces carry. If they carry nothing a small part of
     /// what the springs alone would carry stands for it.
     fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();

@@ -33,7 +33,7 @@ impl Affine {
     }
 }
 
-/// How far an increment goes.
+/// Constraint on the size of an increment.
 #[derive(Debug, Clone)]
 pub enum Constraint {
     /// As far as it dissipates this energy.

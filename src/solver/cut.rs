@@ -1,4 +1,4 @@
-//! Where a matrix falls into parts: the top of its elimination tree is their separator, the subtrees below it are the parts.
+//! Division of a matrix into parts: the top of its elimination tree is their separator, the subtrees below it are the parts.
 //!
 //! ```text
 //!            ●         separator: roots of subtrees with more than LARGEST of all nodes
@@ -88,7 +88,7 @@ impl Cut {
         Cut { graph, components, parts, separator }
     }
 
-    /// Whether the separator is small beside the parts, and every part has something to do.
+    /// True if the separator is small beside the parts, and no part is empty.
     pub fn pays(&self) -> bool {
         let c = self.components;
         let dofs = c * (self.separator.len() + self.parts.iter().map(Vec::len).sum::<usize>());

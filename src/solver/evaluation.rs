@@ -1,4 +1,4 @@
-//! What the laws of all interfaces and a form say at some unknowns.
+//! Evaluation of the laws of all interfaces and of a form at some unknowns.
 
 use rayon::prelude::*;
 

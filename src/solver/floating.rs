@@ -205,7 +205,7 @@ impl Form for FloatingSubdomains<'_> {
         residual
     }
 
-    /// What springs would make of the misfit of jumps, and the misfit of the bodies' balance, over what interfaces and loads carry.
+    /// Forces of the base stiffness for the misfit of jumps, and the misfit of the bodies' balance, over what interfaces and loads carry.
     /// A rigid motion of all makes no difference: jumps without interface forces count with the rigid motions found.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();

@@ -1,11 +1,11 @@
-//! What Newton's method asks of a form of the equilibrium, and what a form asks of the laws.
+//! Interfaces between Newton's method, a form of the equilibrium, and the laws.
 
 use super::{LinearMeasure, NodalSolution, Ramp};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 
-/// What answers at the law points.
+/// Response at the law points.
 pub trait Respond: Sync {
-    /// What a point remembers of an answer.
+    /// The part of a response that a point keeps.
     type Memory: Send;
 
     /// Fills the traction (components) and its derivative by the jump (components², by rows) at a jump (n, t, …) of a law
@@ -54,13 +54,13 @@ pub trait Form {
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
-    /// What rounding alone may leave of the residual, measured like `error`.
+    /// Residual that rounding alone may leave, measured like `error`.
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64;
     /// Factors the Jacobian for the tangents of every active interface; false if it is singular.
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool;
     /// J⁻¹ b in place.
     fn solve(&self, b: &mut [f64]);
-    /// What the displacements of a solution say the residual still is; empty where it is known exactly.
+    /// Residual by the displacements of a solution; empty where it is known exactly.
     fn defect(&self, x: &[f64], u: &[f64]) -> Vec<f64>;
     /// Σ c · a over the active interfaces, for weights on their jump coefficients, as weights on x.
     fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64>;

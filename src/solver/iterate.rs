@@ -26,7 +26,7 @@ pub struct Iterate<M> {
     pub tractions: Vec<Vec<f64>>,
     /// Forces q on the jump coefficients of every active interface.
     pub forces: Vec<Vec<f64>>,
-    /// What the law points remember.
+    /// Responses that the law points keep.
     pub memory: Vec<Vec<M>>,
     /// Linear systems solved.
     pub iterations: usize,
@@ -45,7 +45,7 @@ pub struct Unconverged {
     pub iterations: usize,
 }
 
-/// Where a search stands: unknowns and load factor.
+/// Point of a path: unknowns and load factor.
 #[derive(Debug, Clone)]
 pub struct PathPoint {
     /// The unknowns of the form.

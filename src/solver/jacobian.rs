@@ -7,7 +7,7 @@
 //!
 //! Only the small matrix of R is factored in an iteration: a sliding point has one row of its two, an intact one none. The base
 //! depends on the supports alone and not on the way here, so that a run repeats bit by bit from any of its increments.
-//! Where hardly a row is intact the whole is factored; so it is where intact springs are much stiffer than the base: then
+//! The whole is factored where hardly a row is intact, and where intact springs are much stiffer than the base: then
 //! 1 + ΔT W is what is left of a difference.
 
 use faer::{Mat, MatRef};
@@ -17,7 +17,7 @@ use super::dense::Lu;
 use crate::assembly::InterfaceTangent;
 use crate::sparse::Csr;
 
-/// Of all rows at most this part is updated: the cubes of the sizes are then as one to two.
+/// Largest part of all rows that is updated: the cubes of the sizes are then as one to two.
 const PART: f64 = 0.8;
 /// Sound springs of at most this many times the base springs leave half of the digits to 1 + ΔT W.
 const STIFFER: f64 = 1e4;

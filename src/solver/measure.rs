@@ -21,9 +21,9 @@ pub struct Ramp {
 /// A weighted sum over dofs.
 #[derive(Debug, Clone)]
 pub enum LinearMeasure {
-    /// Of displacements.
+    /// A measure of displacements.
     Displacement(Vec<(usize, f64)>),
-    /// Of the reactions at held dofs; other dofs count nothing.
+    /// A measure of the reactions at held dofs; other dofs count nothing.
     Reaction(Vec<(usize, f64)>),
 }
 

@@ -22,12 +22,12 @@ use crate::assembly::InterfaceTangent;
 const SUFFICIENT: f64 = 1e-4;
 /// An iteration that leaves more than this part of the residual has reached the rounding, if it is near.
 const STALLED: f64 = 0.5;
-/// What rounding leaves is not taken for a solution above this.
+/// Largest residual that counts as rounding.
 const UNUSABLE: f64 = 1e-6;
 /// A change in the last digit, and how many times the change of the residual that it brings counts as rounding.
 const DIGIT: f64 = 2.0 * f64::EPSILON;
 const SHOWN: f64 = 4.0;
-/// What is shown counts up to this: jumps that run away, where nothing holds the interface, would show anything.
+/// Largest residual that such a change may show: jumps that run away, where nothing holds the interface, would show anything.
 const SHOWN_MOST: f64 = 1e-10;
 /// The constraint of a path is met to this: it says how far to go, not where the path is.
 const MET: f64 = 1e-2;
@@ -191,7 +191,7 @@ impl Newton {
         (y.iter().zip(&z).map(|(y, z)| change * z - y).collect(), change)
     }
 
-    /// What rounding may leave of the residual: in the form's own terms, or as the laws show when the unknowns change in their
+    /// Residual that rounding may leave: in the form's own terms, or as the laws show when the unknowns change in their
     /// last digit. A point that has lost its strength to the last digits turns those into much larger tractions.
     fn rounding<L: Respond>(
         &self,

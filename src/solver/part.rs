@@ -37,7 +37,7 @@ pub(super) struct Submatrix {
 }
 
 impl Submatrix {
-    /// Of the dofs of some nodes; `local` is the place of a node among them.
+    /// The submatrix of the dofs of some nodes; `local` is the place of a node among them.
     pub(super) fn new(
         pattern: &Pattern,
         graph: &Graph,

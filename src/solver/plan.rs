@@ -18,9 +18,9 @@ pub enum FactorPlan {
 /// The factor of a matrix.
 #[derive(Debug)]
 pub enum Factor<'a> {
-    /// Of the whole matrix.
+    /// Factor of the whole matrix.
     Joined(Cholesky<'a>),
-    /// Of its parts.
+    /// Factors of its parts.
     InParts(PartsFactor<'a>),
 }
 

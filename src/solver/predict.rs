@@ -95,7 +95,7 @@ pub fn ahead<L: Respond>(
     Ok(moved(from, &direction, change))
 }
 
-/// What the laws say at a point, and J⁻¹ b₁ there.
+/// Evaluation at a point, and J⁻¹ b₁ there.
 fn tangent<L: Respond>(
     newton: &mut Newton,
     form: &mut impl Form,

@@ -31,7 +31,7 @@ pub struct Primal<'a> {
 }
 
 impl<'a> Primal<'a> {
-    /// Of the continuum alone on its pattern, with the interfaces in `active` and, as constant springs, all others.
+    /// The form of the continuum on its pattern, with the interfaces in `active` and, as constant springs, all others.
     pub fn new(
         interfaces: &'a [InterfaceOperator],
         active: &[usize],

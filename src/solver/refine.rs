@@ -2,7 +2,7 @@
 
 /// Refinement ends at this backward error, or where it no longer gains much: then rounding of the residual is left.
 const BACKWARD_ERROR: f64 = 4.0 * f64::EPSILON;
-/// What a refinement must leave at most of the error to be followed by another.
+/// Largest share of the error after a refinement that is followed by another.
 const GAIN: f64 = 0.05;
 /// Most refinements.
 const REFINEMENTS: usize = 5;
@@ -18,7 +18,7 @@ pub struct NodalSolution {
     pub backward_error: f64,
 }
 
-/// Where the refinement of one solution stands.
+/// State of the refinement of one solution.
 struct Refined {
     u: Vec<f64>,
     residual: Vec<f64>,

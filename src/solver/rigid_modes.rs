@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 /// A motion that supports and hinges resist by less than this part of a node's is free.
 const FREE: f64 = 1e-12;
-/// What a motion must leave on the separator when those before it are taken away.
+/// Least part of a mode on the separator that is independent of those before it.
 const SEEN: f64 = 1e-8;
 
 /// Free motions on all dofs of a body, orthonormal on its separator (dofs with a place). `pieces`: their nodes where it falls

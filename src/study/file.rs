@@ -26,22 +26,22 @@ pub struct Study {
     /// Settings of all points. Fields are written only where `output.fields` is set here or by an axis.
     #[serde(default)]
     pub set: Settings,
-    /// What varies, by name.
+    /// Axes by name.
     #[serde(default)]
     pub axes: IndexMap<String, Axis>,
     /// Which points of the axes are run.
     #[serde(default)]
     pub design: Design,
-    /// What is measured besides sizes, counts, time and memory, by name.
+    /// Measures besides sizes, counts, time and memory, by name.
     #[serde(default)]
     pub measures: IndexMap<String, Measure>,
     /// Runs that stand for the exact answer of the measures that have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<Reference>,
-    /// How often every point is run, for its time.
+    /// Number of runs of every point, for its time.
     #[serde(default = "once")]
     pub repeat: usize,
-    /// Where points are run.
+    /// Process in which points are run.
     #[serde(default)]
     pub process: Process,
 }
@@ -92,7 +92,7 @@ pub enum Design {
     },
 }
 
-/// What is measured.
+/// Kinds of measures.
 #[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(tag = "take", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Measure {
@@ -151,12 +151,12 @@ pub enum Field {
 pub struct Reference {
     /// Settings of every run, from coarse to fine.
     pub runs: Vec<Settings>,
-    /// How many times finer each is than the one before.
+    /// Factor by which each is finer than the one before.
     #[serde(default = "two")]
     pub ratio: f64,
 }
 
-/// Where points are run.
+/// Process in which points are run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Process {

@@ -1,4 +1,4 @@
-//! What is taken from a run while it goes: the columns of its history, and norms at its end.
+//! Measures taken from a run while it goes: the columns of its history, and norms at its end.
 //!
 //! ```text
 //!   error of a field = √(∫ |field − exact|² / ∫ |exact|²)      interfaces: Σ over law points, bodies: Σ over cells

@@ -33,7 +33,7 @@ use crate::history::{memory, processor};
 use crate::output::write_json;
 use crate::run::Shared;
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Debug)]
 pub struct Progress<'a> {
     /// Points that have an outcome.
@@ -44,14 +44,14 @@ pub struct Progress<'a> {
     pub outcome: Option<&'a PointOutcome>,
 }
 
-/// What a study leaves behind.
+/// Outcome of a study.
 #[derive(Debug)]
 pub struct StudyDone {
     /// Outcomes of the design's points, then of the reference's.
     pub outcomes: Vec<PointOutcome>,
-    /// How many are the design's.
+    /// Number of those in the design.
     pub designed: usize,
-    /// What every measure is compared with.
+    /// Reference of every measure.
     pub limits: Limits,
 }
 

@@ -1,4 +1,4 @@
-//! What became of a point, as it is kept on disk.
+//! Outcome of a point, as it is kept on disk.
 
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ pub struct PointOutcome {
     pub values: IndexMap<String, Option<f64>>,
     /// Sizes and counts.
     pub counts: IndexMap<String, f64>,
-    /// How the equations were solved.
+    /// Method by which the equations were solved.
     pub strategy: String,
     /// Seconds of every repeat: of the whole process where it has one of its own.
     pub seconds: Vec<f64>,
@@ -30,7 +30,7 @@ pub struct PointOutcome {
     pub stages: Vec<IndexMap<String, f64>>,
     /// Most memory of a process of its own [bytes].
     pub peak_memory: Option<u64>,
-    /// What the first repeat found that others had left.
+    /// Data of others that the first repeat used.
     pub reused: Vec<String>,
 }
 

@@ -16,7 +16,7 @@ use crate::scene::{Scene, Source, document};
 /// A study with its points.
 #[derive(Debug)]
 pub struct StudyPlan {
-    /// What its file says.
+    /// The file of the study.
     pub study: Study,
     /// Its name: that of its folder and file.
     pub name: String,
@@ -24,7 +24,7 @@ pub struct StudyPlan {
     pub scene: PathBuf,
     /// The design's points, then those of the reference.
     pub(super) points: Vec<StudyPoint>,
-    /// How many are the design's.
+    /// Number of points in the design.
     pub(super) designed: usize,
     /// Digests of all that files decide of a point; none where more than files decides.
     keys: Vec<Option<String>>,

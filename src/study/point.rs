@@ -14,10 +14,10 @@ use crate::error::{Error, Result};
 use crate::output::write_json;
 use crate::run::{self, Event, Options, Shared};
 
-/// How points are run.
+/// Means by which points are run.
 #[derive(Debug, Clone)]
 pub struct StudyMeans {
-    /// Where everything goes.
+    /// Folder of the study.
     pub out: PathBuf,
     /// The study's file, for processes of their own.
     pub file: PathBuf,
@@ -40,7 +40,7 @@ impl StudyMeans {
         self.out.join("points").join(format!("{point:04}.json"))
     }
 
-    /// Where the meshes of all points are.
+    /// Folder of the meshes of all points.
     pub(super) fn meshes(&self) -> PathBuf {
         self.out.join("mesh")
     }

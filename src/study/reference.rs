@@ -1,4 +1,4 @@
-//! What a measure is compared with: a number, or the limit of ever finer runs and how uncertain it is.
+//! References of measures: a number, or the limit of ever finer runs and how uncertain it is.
 //!
 //! ```text
 //!   v(h) = v₀ + C h^p,  h → h/r:   r^p = (v₂ − v₁)/(v₃ − v₂),   v₀ = v₃ + (v₃ − v₂)/(r^p − 1)      (Richardson)
@@ -6,12 +6,12 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What stands for the exact value.
+/// Stand-in for the exact value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
     /// The value.
     pub value: f64,
-    /// How far it may be off; 0 for a number that the study gives.
+    /// Its uncertainty; 0 for a number that the study gives.
     pub uncertainty: f64,
     /// Order of convergence that the last three runs show; absent where they show none.
     pub order: Option<f64>,

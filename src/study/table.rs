@@ -13,7 +13,7 @@ use super::reference::Limit;
 use crate::error::Result;
 use crate::output::{write_json, write_whole};
 
-/// What every measure is compared with.
+/// Reference of every measure.
 pub type Limits = IndexMap<String, Limit>;
 
 #[derive(Serialize)]

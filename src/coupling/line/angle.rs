@@ -20,7 +20,7 @@ const SHARPER: f64 = 2.0;
 const STRAIGHT: f64 = 1e-6;
 /// At a point of the geometry so sharp a turn is a kink whatever its neighbours do [rad].
 const SHARP: f64 = 1.0;
-/// Where the points of the geometry are not known, a kink turns by more than this [rad].
+/// Least turn of a kink if the points of the geometry are not known [rad].
 const PLAIN: f64 = 0.3;
 /// An edge this much shorter than its neighbour has no direction of its own: rounding turns it.
 const SPECK: f64 = 1e-6;
@@ -34,7 +34,7 @@ pub(in crate::coupling) struct Angles {
     tangents: Vec<[[f64; 2]; 3]>,
     /// Angle from every edge's own direction to that of its nodes, at start and end [rad].
     deviation: Vec<[f64; 2]>,
-    /// How far every edge may lie off the curve that it approximates [length].
+    /// Largest distance of every edge from the curve that it approximates [length].
     pub slack: Vec<f64>,
     /// Lines without kinks.
     pub lines: Vec<SmoothLine>,
@@ -123,7 +123,7 @@ impl Angles {
     }
 }
 
-/// How far an edge may lie off its curve: twice the sagitta h δ/4, δ the angle between edge and curve at its ends, and
+/// Largest distance of an edge from its curve: twice the sagitta h δ/4, δ the angle between edge and curve at its ends, and
 /// what is left of an arc when a parabola follows it, h θ³/512, with a margin likewise.
 fn slack(h: f64, deviation: [f64; 2], nodes: [f64; 3]) -> f64 {
     h * (0.5 * deviation[0].abs().max(deviation[1].abs()) + (nodes[1] - nodes[0]).abs().powi(3) / 256.0)

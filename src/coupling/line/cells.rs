@@ -84,7 +84,7 @@ impl MidplaneGrid {
         }
     }
 
-    /// What the mass matrix needs to know.
+    /// Its nodes, as the mass matrix sees them.
     pub fn nodes(&self) -> Nodes {
         Nodes { count: self.nodes, row: self.row.clone(), band: self.band() }
     }

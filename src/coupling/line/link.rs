@@ -7,7 +7,7 @@ use crate::mesh::Edge;
 /// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
 #[derive(Debug, Clone, Copy)]
 pub struct Side<'a> {
-    /// How messages call it, such as `lower.top`.
+    /// Its name in messages, such as `lower.top`.
     pub name: &'a str,
     /// Coordinates of its mesh.
     pub points: &'a [[f64; 2]],
@@ -15,11 +15,11 @@ pub struct Side<'a> {
     pub edges: &'a [Edge],
     /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
     pub corners: &'a [usize],
-    /// What the coupling adds to the node numbers of the mesh: the first node of its body in the model.
+    /// Offset of the node numbers of the mesh: the first node of its body in the model.
     pub first: usize,
 }
 
-/// What is known about a node of a side.
+/// Knowledge about a node of a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::coupling) enum Corner {
     /// It lies on a point of the geometry.
@@ -40,7 +40,7 @@ pub(in crate::coupling) struct Link {
     pub mid: Option<usize>,
     /// Start, end and mid-node from the origin.
     pub x: [[f64; 2]; 3],
-    /// What is known of the start.
+    /// Knowledge of the start.
     pub corner: Corner,
 }
 

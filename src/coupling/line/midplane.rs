@@ -18,7 +18,7 @@ pub struct LineMidplane {
     pub a: Chain,
     /// Side B, its body on the left, so that both run along the tangent.
     pub b: Chain,
-    /// Where the coordinates in the chains are counted from.
+    /// Origin of the coordinates in the chains.
     pub origin: [f64; 2],
     /// Length of C [length].
     pub length: f64,

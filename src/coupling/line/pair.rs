@@ -37,7 +37,7 @@ impl Face<'_> {
     }
 }
 
-/// How far b lies ahead of the place that faces a [length].
+/// Distance by which b lies ahead of the place that faces a [length].
 fn ahead(a: TangentPoint, b: TangentPoint) -> f64 {
     dot(minus(b.x, a.x), unit(plus(a.t, b.t)))
 }

@@ -188,7 +188,7 @@ fn assemble(c: &mut LineMidplane, mut parts: Vec<CommonStretch>) {
     }
 }
 
-/// How often every edge of a side is joined: 0 to 1, more if it faces two curves at one place.
+/// Joined share of every edge of a side: 0 to 1, more if it faces two curves at one place.
 fn cover(c: &LineMidplane, side: usize) -> Vec<f64> {
     let mut cover = vec![0.0; if side == 0 { c.a.edges() } else { c.b.edges() }];
     for segment in &c.segments {

@@ -1,4 +1,4 @@
-//! Where a closed loop of C starts: at an A and a B node that lie closest together, on a tie at smaller x, then y, so
+//! Start of a closed loop of C: at an A and a B node that lie closest together, on a tie at smaller x, then y, so
 //! that neither labels nor the order in a file matter.
 
 use super::LineMidplane;

@@ -94,7 +94,7 @@ impl RampEnds {
     }
 }
 
-/// What a linear scene tells the march of an equilibrium.
+/// The equilibrium of a linear scene as an increment that converged.
 fn found(
     solution: Option<NodalSolution>,
     backward_error: f64,

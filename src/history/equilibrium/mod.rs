@@ -1,4 +1,4 @@
-//! What finds the equilibrium of one increment: a linear scene without iteration (`linear`), any other by Newton's method
+//! The search for the equilibrium of one increment: a linear scene without iteration (`linear`), any other by Newton's method
 //! (`newton`).
 
 mod equations;
@@ -33,7 +33,7 @@ pub(in crate::history) enum Failure {
 /// Points that reach their surface within this fraction of a part do so at once.
 const ON: f64 = 1e-6;
 
-/// Where the search for equilibria stands: what the next one starts from.
+/// State of the search for equilibria, from which the next one starts.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::history) struct Search {
     /// Unknowns of the form at the accepted increment before the last, and at the last.
@@ -45,7 +45,7 @@ pub(in crate::history) struct Search {
     viscous: Vec<Vec<f64>>,
     /// Friction lags wherever it is steep in viscous steps, since steps without failed.
     lags: bool,
-    /// What was measured without displacements is good enough.
+    /// True if measures without displacements are accurate enough.
     trusted: bool,
     /// No increment of the step has been tried yet.
     first: bool,
@@ -142,16 +142,16 @@ pub(in crate::history) trait Engine {
     /// Displacements and reactions of the last accepted increment, if the engine goes without.
     fn recover(&self, load: &StepLoad) -> Option<NodalSolution>;
 
-    /// Where the search stands, to be returned to.
+    /// State of the search, to be returned to.
     fn search(&self) -> Search;
 
     /// Returns to where the search stood.
     fn restore(&mut self, search: Search);
 
-    /// Where the search stands before viscous steps, in which friction does not lag at first.
+    /// State of the search before viscous steps, in which friction does not lag at first.
     fn begin_viscous(&mut self) -> Search;
 
-    /// What was found last is accepted: the next search starts from it.
+    /// Accepts the last equilibrium found: the next search starts from it.
     fn accept(&mut self);
 }
 

@@ -1,4 +1,4 @@
-//! How a scene is solved: which interfaces have unknowns of their own, and which form of the equations takes less work.
+//! The choice of a form: which interfaces have unknowns of their own, and which form of the equations takes less work.
 
 use std::collections::BTreeSet;
 

@@ -48,7 +48,7 @@ impl Cracking {
         self.check_normal_stiffness()
     }
 
-    /// What is admissible but likely to disappoint: K_T too low for a smooth way past the peak in shear.
+    /// Warnings of admissible parameters: K_T too low for a smooth way past the peak in shear.
     pub fn warnings(&self) -> Vec<Warning> {
         let (chi, c, kt) = (self.tensile_strength, self.cohesion, self.tangential_stiffness);
         let cohesion_loss = match c > 0.0 {

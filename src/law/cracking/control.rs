@@ -1,4 +1,4 @@
-//! How long a sub-step may be.
+//! Error control of the length of sub-steps.
 //!
 //! Each sub-step is done once whole and once in halves; the difference rules the next length. The tolerance ε bounds
 //! the error at the end of a way: a second-order step has a local error of third order, so the local bound is
@@ -163,7 +163,7 @@ fn rounding_near_vertex(surface: &Surface, end: &WayPoint) -> f64 {
     0.0
 }
 
-/// Whether the flow changes its law within a step: another mode, or an energy used up.
+/// True if the flow changes its law within a step: another mode, or an energy used up.
 fn is_across_event(surface: &Surface, from: &WayPoint, step: &Double) -> bool {
     let mode = step.end.mode;
     let used_up = |w: f64| [w * surface.per_gf_i >= USED_UP, w * surface.per_gf_iia >= USED_UP];

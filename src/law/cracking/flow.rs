@@ -14,7 +14,7 @@
 
 use super::surface::{Hyperbola, Surface};
 
-/// What a point does in a step; the number is the status.
+/// Modes of a point in a step; the number is the status.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mode {
     /// Elastic.

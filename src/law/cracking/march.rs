@@ -70,7 +70,7 @@ pub(super) fn compliant(surface: &Surface, traction: Vector2<f64>) -> Vector2<f6
     Vector2::new(traction.x / surface.kn, traction.y / surface.kt)
 }
 
-/// How far outside a trial must lie to count [stress].
+/// Least distance of a trial from the surface that counts as outside [stress].
 pub(super) fn margin(surface: &Surface, traction: Vector2<f64>) -> f64 {
     ELASTIC * surface.c0.max(traction.amax())
 }
@@ -123,7 +123,7 @@ pub(super) fn two_stage_step(
 }
 
 impl Stage {
-    /// What the point does at the end of this stage.
+    /// Mode at the end of this stage.
     pub fn mode(&self) -> Mode {
         self.answer.mode
     }

@@ -145,7 +145,7 @@ impl Cracking {
         march(&Surface::new(self), jump, old, Lengths::Given(lengths))
     }
 
-    /// What separates two states, as an error of the traction [stress]: in traction, strength and jump.
+    /// Distance of two states, as an error of the traction [stress]: in traction, strength and jump.
     pub(super) fn misfit(&self, a: &State, b: &State) -> f64 {
         let surface = Surface::new(self);
         let loss = surface.loss();

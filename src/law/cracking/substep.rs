@@ -15,7 +15,7 @@ use super::surface::Surface;
 /// A state that does not move is outside above so many times the margin.
 const LEFT_OUTSIDE: f64 = 1e3;
 
-/// Where the sub-steps come from.
+/// Source of the lengths of sub-steps.
 pub(super) enum Lengths<'a> {
     /// Error control with this tolerance; the accepted lengths are appended to the record, if there is one.
     Controlled(f64, Option<&'a mut Vec<f64>>),

@@ -2,7 +2,7 @@
 
 use crate::shape::Shape;
 
-/// What is wrong with a file and what would have been right; the caller knows its name.
+/// A fault of a file and its remedy; the caller knows its name.
 #[derive(Debug)]
 pub(in crate::mesh) struct MeshFault {
     pub(in crate::mesh) what: String,

@@ -1,6 +1,6 @@
 //! A position in the bytes of an MSH file: reads and skips numbers, text or binary, never past the end.
 
-/// How the numbers of the file are written.
+/// Encoding of the numbers of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Decimal, separated by white space.

@@ -3,7 +3,7 @@
 use super::content::MeshFault;
 use crate::shape::Shape;
 
-/// What an element is to a plane mesh.
+/// The part of an element in a plane mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ElementKind {
     /// A point.
