@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use indexmap::IndexMap;
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, join};
-use midplane::mesh::{Cells, Edge, Group, Mesh, touching};
+use midplane::mesh::{Cells, Facet, Group, Mesh, touching};
 use midplane::shape::Shape;
 
 const RUNS: usize = 7;
@@ -57,13 +57,13 @@ fn least<T>(run: impl Fn() -> T) -> (f64, T) {
 }
 
 /// Points and edges of a side.
-fn curve(n: usize, closed: bool, forward: bool, at: &dyn Fn(f64) -> [f64; 2]) -> (Vec<[f64; 2]>, Vec<Edge>) {
+fn curve(n: usize, closed: bool, forward: bool, at: &dyn Fn(f64) -> [f64; 2]) -> (Vec<[f64; 2]>, Vec<Facet>) {
     let nodes = if closed { n } else { n + 1 };
     let points = (0..nodes).map(|i| at(i as f64 / n as f64)).collect();
     let edge = |i: usize| {
         let (p, q) = (i, (i + 1) % nodes);
         let [start, end] = if forward { [p, q] } else { [q, p] };
-        Edge { nodes: [start, end, end], cell: 0, boundary: true }
+        Facet::edge(&[start, end], 0, true)
     };
     (points, (0..n).map(edge).collect())
 }

@@ -4,10 +4,10 @@ mod common;
 
 use common::{even, graded};
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
-use midplane::mesh::Edge;
+use midplane::mesh::Facet;
 use proptest::prelude::*;
 
-fn side<'a>(name: &'a str, points: &'a [[f64; 2]], edges: &'a [Edge]) -> Side<'a> {
+fn side<'a>(name: &'a str, points: &'a [[f64; 2]], edges: &'a [Facet]) -> Side<'a> {
     Side { name, points, edges, corners: &[], first: 0 }
 }
 
@@ -68,10 +68,10 @@ impl Line {
     }
 }
 
-fn edges(nodes: usize, backwards: bool) -> Vec<Edge> {
+fn edges(nodes: usize, backwards: bool) -> Vec<Facet> {
     let edge = |i: usize| {
         let (start, end) = if backwards { (i + 1, i) } else { (i, i + 1) };
-        Edge { nodes: [start, end, end], cell: 0, boundary: true }
+        Facet::edge(&[start, end], 0, true)
     };
     // file order is nobody's business: interleave from both ends
     let mut order: Vec<usize> = (0..nodes - 1).collect();
@@ -331,19 +331,19 @@ fn sides_that_do_not_face_each_other_are_refused() {
 }
 
 /// A side of quadratic edges between the given places along y = 0.3, as points and edges; `backwards` for side A.
-fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Edge>) {
+fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Facet>) {
     let mids = s.windows(2).map(|w| 0.5 * (w[0] + w[1]));
     let points = s.iter().copied().chain(mids).map(|s| [s, 0.3]).collect();
     let edge = |i: usize| {
         let (start, end) = if backwards { (i + 1, i) } else { (i, i + 1) };
-        Edge { nodes: [start, end, s.len() + i], cell: 0, boundary: true }
+        Facet::edge(&[start, end, s.len() + i], 0, true)
     };
     (points, (0..s.len() - 1).rev().map(edge).collect())
 }
 
 fn couple(
-    a: &(Vec<[f64; 2]>, Vec<Edge>),
-    b: &(Vec<[f64; 2]>, Vec<Edge>),
+    a: &(Vec<[f64; 2]>, Vec<Facet>),
+    b: &(Vec<[f64; 2]>, Vec<Facet>),
     kind: JumpScheme,
     points: Points,
 ) -> Coupling {

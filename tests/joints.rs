@@ -119,9 +119,9 @@ fn b1_one_edge_against_a_thousand() {
         let mut exact = vec![0.0; f.len()];
         for (curve, first, sign) in [(&a, 0, -1.0), (&b, a.points.len(), 1.0)] {
             for edge in &curve.edges {
-                let x = edge.nodes.map(|node| curve.points[node][0]);
+                let x: Vec<f64> = edge.nodes().iter().map(|&node| curve.points[node][0]).collect();
                 let h = (x[1] - x[0]).abs();
-                for (node, (x, share)) in edge.nodes.iter().zip(x.iter().zip([1.0, 1.0, 4.0])) {
+                for (node, (x, share)) in edge.nodes().iter().zip(x.iter().zip([1.0, 1.0, 4.0])) {
                     exact[first + node] += sign * share * h / 6.0 * (1.0 + x);
                 }
             }

@@ -404,15 +404,15 @@ fn curved_boundaries_touch_and_slots_do_not() {
             [r * p.cos(), r * p.sin()]
         })
     };
-    let every = |_: [usize; 2], _: [&midplane::mesh::Edge; 2]| true;
+    let every = |_: [usize; 2], _: [&midplane::mesh::Facet; 2]| true;
     for (na, nb) in [(2, 3), (7, 11), (64, 65), (5, 500)] {
         let (inner, outer) = (ring(0.5, 1.0, na), ring(1.0, 1.5, nb));
-        let one_way = |pair: [usize; 2], _: [&midplane::mesh::Edge; 2]| pair[0] < pair[1];
+        let one_way = |pair: [usize; 2], _: [&midplane::mesh::Facet; 2]| pair[0] < pair[1];
         let found = touching(&[&inner, &outer], &one_way).unwrap();
         assert_eq!(found.len(), 1, "{na} against {nb}");
         assert_eq!([found[0].edges[0].len(), found[0].edges[1].len()], [na, nb]);
         let Group::Edges(right) = &inner.groups["right"] else { panic!("no curve") };
-        assert!(found[0].edges[0].iter().all(|edge| right.iter().any(|r| r.nodes == edge.nodes)));
+        assert!(found[0].edges[0].iter().all(|edge| right.iter().any(|r| r.nodes() == edge.nodes())));
     }
     // a slot as wide as a hundredth of an edge is no interface, nor is a point
     let square =

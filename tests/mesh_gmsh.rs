@@ -26,14 +26,16 @@ fn check_block(mesh: &Mesh, quadratic: bool) {
         let edges = edges(mesh, name);
         for edge in edges {
             assert_eq!(edge.boundary, boundary, "{name}");
-            assert_eq!(edge.nodes[1] != edge.nodes[2], quadratic);
+            assert_eq!(edge.shape.is_quadratic(), quadratic);
         }
     }
     // with the body on its left the bottom runs along +x and the top along -x
     for (name, direction) in [("bottom", 1.0), ("top", -1.0)] {
         let edges = edges(mesh, name);
         assert!(
-            edges.iter().all(|e| direction * (mesh.points[e.nodes[1]][0] - mesh.points[e.nodes[0]][0]) > 0.0)
+            edges
+                .iter()
+                .all(|e| direction * (mesh.points[e.nodes()[1]][0] - mesh.points[e.nodes()[0]][0]) > 0.0)
         );
     }
     assert!(matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0, 0.0]));

@@ -33,7 +33,10 @@ fn refusal(text: &MeshText) -> String {
 
 /// Start and end of the edges of a curve, as coordinates.
 fn ends(mesh: &Mesh, name: &str) -> Vec<[[f64; 2]; 2]> {
-    edges(mesh, name).iter().map(|edge| [mesh.points[edge.nodes[0]], mesh.points[edge.nodes[1]]]).collect()
+    edges(mesh, name)
+        .iter()
+        .map(|edge| [mesh.points[edge.nodes()[0]], mesh.points[edge.nodes()[1]]])
+        .collect()
 }
 
 const BOTTOM: [[[f64; 2]; 2]; 2] = [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [2.0, 0.0]]];
@@ -103,7 +106,8 @@ fn quadratic_cells_keep_their_mid_nodes_when_turned() {
     let mesh = read(&text);
     close(area(&mesh), 0.5);
     let edges = edges(&mesh, "5");
-    assert_eq!(edges[0].nodes.map(|node| mesh.points[node]), [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]]);
+    let places: Vec<[f64; 2]> = edges[0].nodes().iter().map(|&node| mesh.points[node]).collect();
+    assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]]);
 }
 
 #[test]

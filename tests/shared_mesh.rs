@@ -31,11 +31,12 @@ fn strip(shape: Shape) -> Mesh {
     // the boundary of the western part, in numbers of the whole
     let number = |p: [f64; 2]| mesh.points.iter().position(|q| *q == p).unwrap();
     let part = mesh.part(&west).unwrap();
-    let middle = middle.into_iter().filter(|edge| edge.nodes.iter().all(|&node| part.points[node][0] == 1.0));
-    let middle = middle.map(|edge| midplane::mesh::Edge {
-        nodes: edge.nodes.map(|node| number(part.points[node])),
-        cell: west[edge.cell],
-        boundary: false,
+    let middle =
+        middle.into_iter().filter(|edge| edge.nodes().iter().all(|&node| part.points[node][0] == 1.0));
+    let middle = middle.map(|edge| {
+        let mut facet = edge.renumbered(|node| number(part.points[node]));
+        (facet.cell, facet.boundary) = (west[edge.cell], false);
+        facet
     });
     let middle = middle.collect();
     mesh.groups.insert("middle".into(), Group::Edges(middle));
@@ -57,11 +58,12 @@ fn a_part_has_its_own_nodes_and_its_own_side_of_a_common_curve() {
             let middle = edges(&part, "middle");
             assert_eq!(middle.len(), 3);
             for edge in middle {
-                let [start, end, mid] = edge.nodes.map(|node| part.points[node]);
-                assert!(edge.boundary && start[0] == 1.0 && end[0] == 1.0 && mid[0] == 1.0);
+                let places: Vec<[f64; 2]> = edge.nodes().iter().map(|&node| part.points[node]).collect();
+                let [start, end] = [places[0], places[1]];
+                assert!(edge.boundary && places.iter().all(|place| place[0] == 1.0));
                 // with the body on the left the eastern boundary runs up and the western one down
                 assert_eq!(end[1] > start[1], upwards, "{shape:?} {name}");
-                assert_eq!(edge.nodes[1] != edge.nodes[2], shape.is_quadratic());
+                assert_eq!(edge.shape.is_quadratic(), shape.is_quadratic());
             }
             assert_eq!(part.groups.contains_key("left"), name == "west");
             assert_eq!(part.groups.contains_key("right"), name == "east");

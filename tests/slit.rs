@@ -11,7 +11,7 @@ mod common;
 
 use common::*;
 use midplane::history::ModelState;
-use midplane::mesh::{Edge, Group, Mesh};
+use midplane::mesh::{Facet, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
@@ -108,20 +108,25 @@ fn welded(below: Mesh, above: Mesh, weld: impl Fn(f64) -> bool) -> Mesh {
         let nodes: Vec<usize> = above.cells.nodes(c).iter().map(|&node| number[node]).collect();
         mesh.cells.push(above.cells.shapes[c], &nodes);
     }
-    let lips = |mesh: &Mesh, name: &str, number: &dyn Fn(usize) -> usize, first: usize| -> Vec<Edge> {
+    let lips = |mesh: &Mesh, name: &str, number: &dyn Fn(usize) -> usize, first: usize| -> Vec<Facet> {
         let Group::Edges(edges) = &mesh.groups[name] else { unreachable!() };
-        let free = |edge: &&Edge| !edge.nodes[..2].iter().all(|&node| weld(mesh.points[node][0]));
-        let moved =
-            |edge: &Edge| Edge { nodes: edge.nodes.map(number), cell: first + edge.cell, boundary: true };
+        let free = |edge: &&Facet| !edge.nodes()[..2].iter().all(|&node| weld(mesh.points[node][0]));
+        let moved = |edge: &Facet| moved_to(edge.renumbered(number), first + edge.cell, true);
         edges.iter().filter(free).map(moved).collect()
     };
     let (one, two) = (lips(&below, "top", &|i| i, 0), lips(&above, "bottom", &|i| number[i], first));
     for (from, to) in [("top", "top"), ("right", "right above"), ("left", "left above")] {
         let Group::Edges(of) = &above.groups[from] else { unreachable!() };
-        let moved = |e: &Edge| Edge { nodes: e.nodes.map(|i| number[i]), cell: first + e.cell, ..*e };
+        let moved = |e: &Facet| moved_to(e.renumbered(|i| number[i]), first + e.cell, e.boundary);
         mesh.groups.insert(to.into(), Group::Edges(of.iter().map(moved).collect()));
     }
     mesh.groups.insert("lips below".into(), Group::Edges(one));
     mesh.groups.insert("lips above".into(), Group::Edges(two));
     mesh
+}
+
+/// A facet of another cell.
+fn moved_to(mut facet: Facet, cell: usize, boundary: bool) -> Facet {
+    (facet.cell, facet.boundary) = (cell, boundary);
+    facet
 }

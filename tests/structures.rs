@@ -92,7 +92,8 @@ fn a_notched_beam() {
         let notch = |mesh: &mut Mesh, side: &str| {
             let Some(Group::Edges(edges)) = mesh.groups.get(side) else { panic!("{side}") };
             let above = |node: usize| mesh.points[node][1] > 0.03 - 1e-9;
-            let ligament = edges.iter().filter(|edge| above(edge.nodes[0]) && above(edge.nodes[1])).cloned();
+            let ligament =
+                edges.iter().filter(|edge| above(edge.nodes()[0]) && above(edge.nodes()[1])).cloned();
             let ligament = Group::Edges(ligament.collect());
             mesh.groups.insert("ligament".into(), ligament);
         };

@@ -1,7 +1,7 @@
 //! Two unmatched layers of 2 × 0.5, made in memory: what the benches measure on.
 
 use indexmap::IndexMap;
-use midplane::mesh::{Cells, Edge, Group, Mesh};
+use midplane::mesh::{Cells, Facet, Group, Mesh};
 use midplane::shape::Shape;
 
 /// Both layers with about `dofs` dofs in all: n edges along and n/4 rows in each layer make n² dofs.
@@ -29,9 +29,9 @@ fn layer(nx: usize, ny: usize, y: f64) -> Mesh {
         }
     }
     mesh.cells = cells;
-    let edge = |start, end, cell| Edge { nodes: [start, end, end], cell, boundary: true };
+    let edge = |start, end, cell| Facet::edge(&[start, end], cell, true);
     let mut groups = IndexMap::new();
-    let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
+    let mut curve = |name: &str, edges: Vec<Facet>| groups.insert(name.to_string(), Group::Edges(edges));
     curve("bottom", (0..nx).map(|i| edge(node(i, 0), node(i + 1, 0), i)).collect());
     curve("right", (0..ny).map(|j| edge(node(nx, j), node(nx, j + 1), j * nx + nx - 1)).collect());
     curve("top", (0..nx).map(|i| edge(node(i + 1, ny), node(i, ny), (ny - 1) * nx + i)).collect());

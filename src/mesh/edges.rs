@@ -4,7 +4,7 @@
 //! start → end occurs once. They are kept in compressed rows by start: flat arrays, time linear in the mesh.
 
 use super::msh::MeshFault;
-use super::{Cells, Edge};
+use super::{Cells, Facet};
 
 /// Directed edges by start node.
 pub(super) struct EdgeTable {
@@ -62,18 +62,18 @@ impl EdgeTable {
     }
 
     /// The edge of a curve with these nodes, turned so that a cell is on its left.
-    pub(super) fn find(&self, cells: &Cells, start: usize, end: usize) -> Option<Edge> {
+    pub(super) fn find(&self, cells: &Cells, start: usize, end: usize) -> Option<Facet> {
         let (along, against) = (self.left(cells, start, end), self.left(cells, end, start));
         let boundary = along.is_none() || against.is_none();
-        along.or(against).map(|(cell, nodes)| Edge { nodes, cell, boundary })
+        along.or(against).map(|(cell, nodes)| facet(nodes, cell, boundary))
     }
 
     /// The edges without a cell on their right.
-    pub(super) fn boundary(&self, cells: &Cells) -> Vec<Edge> {
+    pub(super) fn boundary(&self, cells: &Cells) -> Vec<Facet> {
         let mut found = Vec::new();
         each_edge(cells, |cell, nodes| {
             if self.left(cells, nodes[1], nodes[0]).is_none() {
-                found.push(Edge { nodes, cell, boundary: true });
+                found.push(facet(nodes, cell, true));
             }
         });
         found
@@ -108,6 +108,12 @@ pub(super) fn edge(cells: &Cells, c: usize, e: usize) -> [usize; 3] {
     let (shape, nodes) = (cells.shapes[c], cells.nodes(c));
     let [start, end, mid] = shape.edge(e);
     [nodes[start], nodes[end], nodes[if shape.is_quadratic() { mid } else { end }]]
+}
+
+/// An edge as a facet.
+fn facet(nodes: [usize; 3], cell: usize, boundary: bool) -> Facet {
+    let count = if nodes[2] == nodes[1] { 2 } else { 3 };
+    Facet::edge(&nodes[..count], cell, boundary)
 }
 
 fn each_edge(cells: &Cells, mut visit: impl FnMut(usize, [usize; 3])) {

@@ -4,7 +4,7 @@ use indexmap::IndexMap;
 
 use super::edges::EdgeTable;
 use super::msh::{Content, Declared, KINDS, MeshFault};
-use super::{Cells, Edge, Group};
+use super::{Cells, Facet, Group};
 
 type GroupResult<T> = Result<T, MeshFault>;
 
@@ -105,7 +105,7 @@ fn curve(
     cells: &Cells,
     table: &EdgeTable,
     numbers: &[u32],
-) -> GroupResult<Vec<Edge>> {
+) -> GroupResult<Vec<Facet>> {
     let mut edges = Vec::with_capacity(members.len());
     let mut keys = Vec::with_capacity(members.len());
     for &member in members {

@@ -68,7 +68,7 @@ pub enum Group {
     /// Physical points: point numbers, ascending.
     Points(Vec<usize>),
     /// Physical curves: edges.
-    Edges(Vec<Edge>),
+    Edges(Vec<Facet>),
     /// Physical surfaces: cell numbers, ascending.
     Cells(Vec<usize>),
     /// Groups of one name and different dimensions: whoever asks for a curve means the curve.
@@ -84,15 +84,41 @@ pub enum Group {
     },
 }
 
-/// An edge of a physical curve.
+/// Most nodes of a facet.
+const MOST_NODES: usize = 9;
+
+/// A facet of a cell on a physical group: in the plane an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Edge {
-    /// Start, end and, on quadratic cells, mid-node; otherwise the third repeats the end.
-    pub nodes: [usize; 3],
-    /// The cell on its left.
+pub struct Facet {
+    /// Its shape.
+    pub shape: Shape,
+    nodes: [usize; MOST_NODES],
+    /// The cell that it bounds; of an edge the one on its left.
     pub cell: usize,
-    /// True if there is no cell on its right, so that the edge lies on the boundary of the body.
+    /// True if there is no cell on its other side, so that it lies on the boundary of the body.
     pub boundary: bool,
+}
+
+impl Facet {
+    /// An edge from its start, its end and, of a quadratic cell, its mid-node.
+    pub fn edge(nodes: &[usize], cell: usize, boundary: bool) -> Facet {
+        let shape = if nodes.len() > 2 { Shape::Line3 } else { Shape::Line2 };
+        let mut all = [0; MOST_NODES];
+        all.iter_mut().zip(nodes).for_each(|(place, node)| *place = *node);
+        Facet { shape, nodes: all, cell, boundary }
+    }
+
+    /// Its nodes, corners first.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes[..self.shape.nodes()]
+    }
+
+    /// The same facet with other node numbers.
+    pub fn renumbered(&self, number: impl Fn(usize) -> usize) -> Facet {
+        let mut facet = *self;
+        facet.nodes[..self.shape.nodes()].iter_mut().for_each(|node| *node = number(*node));
+        facet
+    }
 }
 
 impl Cells {
@@ -127,7 +153,7 @@ impl Group {
     pub fn points(&self, mesh: &Mesh) -> Vec<usize> {
         let mut points = match self {
             Group::Points(points) => points.clone(),
-            Group::Edges(edges) => edges.iter().flat_map(|edge| edge.nodes).collect(),
+            Group::Edges(edges) => edges.iter().flat_map(|edge| edge.nodes().iter().copied()).collect(),
             Group::Cells(cells) => cells.iter().flat_map(|&c| mesh.cells.nodes(c).iter().copied()).collect(),
             Group::Namesakes(all) => all.iter().flat_map(|group| group.points(mesh)).collect(),
             Group::Unusable { .. } => Vec::new(),

@@ -7,7 +7,7 @@
 //! ```
 
 use super::edges::EdgeTable;
-use super::{Cells, Edge, Group, Mesh};
+use super::{Cells, Facet, Group, Mesh};
 use crate::error::{Error, Result};
 
 /// Number of a point or cell that is not in the part.
@@ -42,7 +42,7 @@ impl Mesh {
     }
 
     /// The edges that have a cell on one side only, each with its cell on the left.
-    pub fn boundary(&self) -> Result<Vec<Edge>> {
+    pub fn boundary(&self) -> Result<Vec<Facet>> {
         Ok(table(self, &self.cells, self.points.len())?.boundary(&self.cells))
     }
 }
@@ -76,7 +76,7 @@ fn restrict(group: &Group, point: &[usize], cell: &[usize], cells: &Cells, edges
 }
 
 /// An edge as the part has it: beside one of its own cells.
-fn own(edge: &Edge, point: &[usize], cells: &Cells, edges: &EdgeTable) -> Option<Edge> {
-    let [start, end] = [edge.nodes[0], edge.nodes[1]].map(|node| point[node]);
+fn own(edge: &Facet, point: &[usize], cells: &Cells, edges: &EdgeTable) -> Option<Facet> {
+    let [start, end] = [edge.nodes()[0], edge.nodes()[1]].map(|node| point[node]);
     if start == ABSENT || end == ABSENT { None } else { edges.find(cells, start, end) }
 }

@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 use rstar::{AABB, Envelope, RTree, RTreeObject};
 
-use super::{Edge, Mesh};
+use super::{Facet, Mesh};
 use crate::error::Result;
 
 /// Touching edges may be this far apart, and more where the boundary turns. Of their length.
@@ -34,7 +34,7 @@ pub struct Touch {
     /// The two bodies.
     pub subdomains: [usize; 2],
     /// Their edges there, each once.
-    pub edges: [Vec<Edge>; 2],
+    pub edges: [Vec<Facet>; 2],
     /// The length that they share [length].
     pub length: f64,
     /// A place in its middle.
@@ -45,7 +45,7 @@ pub struct Touch {
 #[derive(Debug, Clone, Copy)]
 struct BoundaryLine {
     subdomain: usize,
-    edge: Edge,
+    edge: Facet,
     ends: [[f64; 2]; 2],
     tangent: [f64; 2],
     length: f64,
@@ -89,9 +89,9 @@ struct LengthEnd {
 /// be side A and the second side B. By pair of bodies; several lines of one pair by their corner with smallest x and y.
 pub fn touching(
     meshes: &[&Mesh],
-    wanted: &(dyn Fn([usize; 2], [&Edge; 2]) -> bool + Sync),
+    wanted: &(dyn Fn([usize; 2], [&Facet; 2]) -> bool + Sync),
 ) -> Result<Vec<Touch>> {
-    let different = |pair: [usize; 2], edges: [&Edge; 2]| pair[0] != pair[1] && wanted(pair, edges);
+    let different = |pair: [usize; 2], edges: [&Facet; 2]| pair[0] != pair[1] && wanted(pair, edges);
     let lines = within_reach(all_lines(meshes)?);
     let shared = shared(&lines, &|[a, b]| {
         different([lines[a].subdomain, lines[b].subdomain], [&lines[a].edge, &lines[b].edge])
@@ -103,7 +103,7 @@ pub fn touching(
 /// bodies, the first no later than the second, and an edge of each.
 pub fn coinciding(
     meshes: &[&Mesh],
-    wanted: &(dyn Fn([usize; 2], [&Edge; 2]) -> bool + Sync),
+    wanted: &(dyn Fn([usize; 2], [&Facet; 2]) -> bool + Sync),
 ) -> Result<Vec<Touch>> {
     let lines = all_lines(meshes)?.concat(); // by body, so that the first of two is of the first body
     let shared = shared(&lines, &|[a, b]| {
@@ -164,10 +164,10 @@ fn lines(subdomain: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
         mesh.boundary()?.into_iter().map(|edge| BoundaryLine::new(subdomain, mesh, edge)).collect();
     let mut starting: HashMap<usize, usize> = HashMap::new();
     for (i, line) in lines.iter().enumerate() {
-        starting.insert(line.edge.nodes[0], i);
+        starting.insert(line.edge.nodes()[0], i);
     }
     for i in 0..lines.len() {
-        let Some(&next) = starting.get(&lines[i].edge.nodes[1]) else { continue };
+        let Some(&next) = starting.get(&lines[i].edge.nodes()[1]) else { continue };
         let (t, u) = (lines[i].tangent, lines[next].tangent);
         let turn = (t[0] * u[1] - t[1] * u[0]).atan2(dot(t, u)).abs();
         if turn < CORNER {
@@ -181,8 +181,8 @@ fn lines(subdomain: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
 }
 
 impl BoundaryLine {
-    fn new(subdomain: usize, mesh: &Mesh, edge: Edge) -> BoundaryLine {
-        let ends = [0, 1].map(|i| mesh.points[edge.nodes[i]]);
+    fn new(subdomain: usize, mesh: &Mesh, edge: Facet) -> BoundaryLine {
+        let ends = [0, 1].map(|i| mesh.points[edge.nodes()[i]]);
         let along = minus(ends[1], ends[0]);
         let length = along[0].hypot(along[1]);
         BoundaryLine {
@@ -223,7 +223,7 @@ impl BoundaryLine {
         }
         let together = TOGETHER * shorter + 16.0 * f64::EPSILON * size;
         let node = |at: f64, own: f64, line: &BoundaryLine, i: usize| {
-            ((at - own).abs() <= together).then_some(line.edge.nodes[i])
+            ((at - own).abs() <= together).then_some(line.edge.nodes()[i])
         };
         let ends = [
             [node(low, 0.0, self, 0), node(low, s[0], other, 1)],

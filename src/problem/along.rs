@@ -1,17 +1,17 @@
 //! s: the fraction of arc length along a curve, 0 at the end with smaller x (then y), 1 at the other.
 
 use super::groups::edge_coordinates;
-use crate::mesh::Edge;
+use crate::mesh::Facet;
 use crate::shape::{GAUSS_3, lagrange3};
 
 /// Ends of a curve whose x differ by less have the same x. Of its extent.
 const SAME: f64 = 1e-9;
 
 /// s at start and end of every edge, in the order of the edges; for a group that is no open line, what it is.
-pub(super) fn fractions(points: &[[f64; 2]], edges: &[Edge]) -> Result<Vec<[f64; 2]>, String> {
+pub(super) fn fractions(points: &[[f64; 2]], edges: &[Facet]) -> Result<Vec<[f64; 2]>, String> {
     let mut by_node: Vec<(usize, usize)> = Vec::new(); // node, edge
     for (e, edge) in edges.iter().enumerate() {
-        by_node.extend([(edge.nodes[0], e), (edge.nodes[1], e)]);
+        by_node.extend([(edge.nodes()[0], e), (edge.nodes()[1], e)]);
     }
     by_node.sort_unstable();
     let at = |node: usize| {
@@ -40,10 +40,10 @@ pub(super) fn fractions(points: &[[f64; 2]], edges: &[Edge]) -> Result<Vec<[f64;
     let mut walked = 0;
     while let Some(&(_, e)) = at(node).iter().find(|(_, e)| *e != before) {
         let edge = &edges[e];
-        let (start, end) = (s, s + length(&edge_coordinates(points, edge), edge.nodes[2] != edge.nodes[1]));
-        let along = edge.nodes[0] == node;
+        let (start, end) = (s, s + length(&edge_coordinates(points, edge), edge.shape.is_quadratic()));
+        let along = edge.nodes()[0] == node;
         fractions[e] = if along { [start, end] } else { [end, start] };
-        (node, before, s) = (edge.nodes[usize::from(along)], e, end);
+        (node, before, s) = (edge.nodes()[usize::from(along)], e, end);
         walked += 1;
     }
     if walked < edges.len() {
@@ -87,8 +87,9 @@ fn arc(x: &[[f64; 2]; 3], from: f64, to: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn edge(start: usize, end: usize, mid: usize) -> Edge {
-        Edge { nodes: [start, end, mid], cell: 0, boundary: true }
+    fn edge(start: usize, end: usize, mid: usize) -> Facet {
+        let nodes = [start, end, mid];
+        Facet::edge(&nodes[..if mid == end { 2 } else { 3 }], 0, true)
     }
 
     #[test]

@@ -11,7 +11,7 @@ use wildmatch::WildMatch;
 use super::curve::{Curve, PlannedInterface};
 use crate::assembly::Model;
 use crate::error::Result;
-use crate::mesh::{Edge, Mesh, touching};
+use crate::mesh::{Facet, Mesh, touching};
 use crate::scene::{Interface, JOINED, Scene};
 
 /// An interface and the side of it.
@@ -20,7 +20,7 @@ type InterfaceSide = (usize, usize);
 /// Edges that interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
 #[derive(Default)]
 pub(super) struct JoinedEdges {
-    edges: HashMap<(usize, [usize; 3]), Vec<InterfaceSide>>,
+    edges: HashMap<(usize, Vec<usize>), Vec<InterfaceSide>>,
     interfaces: usize,
 }
 
@@ -31,15 +31,20 @@ impl JoinedEdges {
             for (curve, edge) in
                 curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
             {
-                self.edges.entry((curve.subdomain, edge.nodes)).or_default().push((self.interfaces, side));
+                self.edges
+                    .entry((curve.subdomain, edge.nodes().to_vec()))
+                    .or_default()
+                    .push((self.interfaces, side));
             }
         }
         self.interfaces += 1;
     }
 
     /// True if one interface has both edges, on different sides.
-    pub(super) fn both(&self, subdomains: [usize; 2], edges: [&Edge; 2]) -> bool {
-        let of = |i: usize| self.edges.get(&(subdomains[i], edges[i].nodes)).map_or(&[][..], Vec::as_slice);
+    pub(super) fn both(&self, subdomains: [usize; 2], edges: [&Facet; 2]) -> bool {
+        let of = |i: usize| {
+            self.edges.get(&(subdomains[i], edges[i].nodes().to_vec())).map_or(&[][..], Vec::as_slice)
+        };
         of(0).iter().any(|one| of(1).iter().any(|two| one.0 == two.0 && one.1 != two.1))
     }
 }
@@ -56,7 +61,7 @@ pub(super) fn pairs<'a>(
     let subdomains: Vec<usize> = (0..fits.len()).filter(|&subdomain| fits[subdomain] != [false; 2]).collect();
     let meshes: Vec<&Mesh> = subdomains.iter().map(|&subdomain| &model.subdomains[subdomain].mesh).collect();
     let is_pair = |[a, b]: [usize; 2]| fits[a][0] && fits[b][1] && (a < b || !(fits[b][0] && fits[a][1]));
-    let wanted = |pair: [usize; 2], edges: [&Edge; 2]| {
+    let wanted = |pair: [usize; 2], edges: [&Facet; 2]| {
         let pair = pair.map(|i| subdomains[i]);
         is_pair(pair) && !taken.both(pair, edges)
     };

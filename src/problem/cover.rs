@@ -49,10 +49,10 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
                 curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
             {
                 let subdomain = &model.subdomains[curve.subdomain];
-                let [p, q] = [0, 1].map(|i| subdomain.mesh.points[edge.nodes[i]]);
+                let [p, q] = [0, 1].map(|i| subdomain.mesh.points[edge.nodes()[i]]);
                 let length = (q[0] - p[0]).hypot(q[1] - p[1]);
                 whole += length;
-                let of_edge = edges.get(&ordered([0, 1].map(|i| subdomain.first_node + edge.nodes[i])));
+                let of_edge = edges.get(&ordered([0, 1].map(|i| subdomain.first_node + edge.nodes()[i])));
                 joined +=
                     length * of_edge.into_iter().flatten().map(|taken| taken.to - taken.from).sum::<f64>();
             }

@@ -6,7 +6,7 @@ use super::groups;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use crate::error::Result;
-use crate::mesh::Edge;
+use crate::mesh::Facet;
 use crate::scene::{CouplingKind, Grid, Interface, OneOrMany, Quadrature, Scene};
 
 /// An interface to be.
@@ -66,7 +66,7 @@ pub(super) struct Curve {
     /// Its name in messages.
     pub name: String,
     /// Its edges.
-    pub edges: Vec<Edge>,
+    pub edges: Vec<Facet>,
 }
 
 /// The curves of a side; no two of them hold the same edge.
@@ -83,8 +83,8 @@ pub(super) fn side(
     for group in names.names() {
         let (subdomain, edges) = groups::curve(scene, model, &path, group)?;
         for edge in edges {
-            if let Some(other) = owner.insert((subdomain, edge.nodes[0], edge.nodes[1]), group) {
-                let [x, y] = model.subdomains[subdomain].mesh.points[edge.nodes[0]];
+            if let Some(other) = owner.insert((subdomain, edge.nodes()[0], edge.nodes()[1]), group) {
+                let [x, y] = model.subdomains[subdomain].mesh.points[edge.nodes()[0]];
                 let what = format!("\"{other}\" and \"{group}\" hold the same edge, at ({x}, {y})");
                 return Err(scene.source.error_at(&path, what, "name every edge of a side once"));
             }

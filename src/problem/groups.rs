@@ -2,7 +2,7 @@
 
 use crate::assembly::Model;
 use crate::error::{Error, Result, name_help};
-use crate::mesh::{Edge, Group};
+use crate::mesh::{Facet, Group};
 use crate::scene::{Scene, Subdomain, split_group};
 
 /// A group of a body, or the whole body; one that is no use, or the name of several, is refused.
@@ -81,7 +81,7 @@ pub(super) fn curve<'a>(
     model: &'a Model,
     path: &[&str],
     name: &str,
-) -> Result<(usize, &'a [Edge])> {
+) -> Result<(usize, &'a [Facet])> {
     let (subdomain, group) = named(scene, model, path, name)?;
     let all = group.map_or(&[][..], Group::each);
     if let Some(curve) = all.iter().find(|group| group.kind() == "curve") {
@@ -147,9 +147,9 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
         Some(Group::Points(points)) => weights.extend(points.iter().map(|&point| (point, 1.0))),
         Some(Group::Edges(edges)) => {
             for edge in edges {
-                let quadratic = edge.nodes[2] != edge.nodes[1];
+                let quadratic = edge.shape.is_quadratic();
                 let of_edge = edge_weights(&edge_coordinates(&mesh.points, edge), quadratic);
-                weights.extend(edge.nodes.into_iter().zip(of_edge).take(if quadratic { 3 } else { 2 }));
+                weights.extend(edge.nodes().iter().copied().zip(of_edge));
             }
         }
     }
@@ -165,8 +165,10 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
     Ok(weights.into_iter().map(|(node, w)| (subdomain.first_node + node, w / total)).collect())
 }
 
-/// Coordinates of an edge, relative to its start.
-pub(super) fn edge_coordinates(points: &[[f64; 2]], edge: &Edge) -> [[f64; 2]; 3] {
-    let origin = points[edge.nodes[0]];
-    edge.nodes.map(|node| [points[node][0] - origin[0], points[node][1] - origin[1]])
+/// Coordinates of start, end and mid-node of an edge, relative to its start; the end again where it has none.
+pub(super) fn edge_coordinates(points: &[[f64; 2]], edge: &Facet) -> [[f64; 2]; 3] {
+    let origin = points[edge.nodes()[0]];
+    let at = |node: usize| [points[node][0] - origin[0], points[node][1] - origin[1]];
+    let nodes = edge.nodes();
+    [nodes[0], nodes[1], nodes[nodes.len() - 1]].map(at)
 }

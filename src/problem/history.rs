@@ -295,10 +295,8 @@ fn places(
             for (edge, ends) in edges.iter().zip(fractions) {
                 let x = groups::edge_coordinates(points, edge);
                 let middle = along::at(ends, &x, true, 0.0);
-                // of a linear edge the third node is the second again
-                let of_edge =
-                    [ends[0], ends[1], if edge.nodes[2] == edge.nodes[1] { ends[1] } else { middle }];
-                for (node, of_node) in edge.nodes.into_iter().zip(of_edge) {
+                let of_edge = [ends[0], ends[1], middle];
+                for (node, of_node) in edge.nodes().iter().copied().zip(of_edge) {
                     if let Ok(i) = nodes.binary_search(&(subdomain.first_node + node)) {
                         s[i] = of_node;
                     }

@@ -7,7 +7,7 @@ use super::history::given;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
 use crate::law::Law;
-use crate::mesh::Edge;
+use crate::mesh::Facet;
 use crate::scene::{Control, Grid, Scene, Solution};
 
 /// Warnings of loads that are zero wherever and whenever they act. One that ends a load of an earlier step is none.
@@ -48,7 +48,7 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
         told.push((path.iter().map(|part| part.to_string()).collect(), why, help));
     };
     for (name, stated) in &scene.interfaces {
-        let linear = |edge: &Edge| edge.nodes[2] == edge.nodes[1];
+        let linear = |edge: &Facet| !edge.shape.is_quadratic();
         let mut own = plans.iter().filter(|plan| plan.entry == name).peekable();
         let quadratic_grid = stated.grid == Grid::Quadratic && own.peek().is_some();
         let has_linear =

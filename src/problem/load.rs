@@ -5,7 +5,7 @@ use super::{along, groups};
 use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
-use crate::mesh::Edge;
+use crate::mesh::Facet;
 use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
 
 /// A load in force.
@@ -20,7 +20,7 @@ pub(super) struct BoundLoad {
 #[derive(Debug, Clone)]
 enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
-    Edges { subdomain: usize, edges: Vec<Edge>, s: Option<Vec<[f64; 2]>>, pressure: bool },
+    Edges { subdomain: usize, edges: Vec<Facet>, s: Option<Vec<[f64; 2]>>, pressure: bool },
     /// Points of a body.
     Points { subdomain: usize, points: Vec<usize> },
     /// A whole body: force per volume times a factor.
@@ -131,20 +131,19 @@ impl BoundLoad {
                 let subdomain = &model.subdomains[*subdomain];
                 let split = |v: [f64; 2]| if *pressure { ([0.0; 2], v[0]) } else { (v, 0.0) };
                 for (e, edge) in edges.iter().enumerate() {
-                    let quadratic = edge.nodes[2] != edge.nodes[1];
+                    let quadratic = edge.shape.is_quadratic();
                     let x = groups::edge_coordinates(&subdomain.mesh.points, edge);
                     let nodal = if let Some(constant) = constant {
                         let (traction, pressure) = split(constant);
                         edge_force(&x, quadratic, traction, pressure, model.thickness)
                     } else {
-                        let origin = subdomain.mesh.points[edge.nodes[0]];
+                        let origin = subdomain.mesh.points[edge.nodes()[0]];
                         edge_field_force(&x, quadratic, model.thickness, |xi, place| {
                             let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, quadratic, xi));
                             Ok::<_, Error>(split(at(plus(origin, place), s)?))
                         })?
                     };
-                    for (node, nodal) in edge.nodes.into_iter().zip(nodal).take(if quadratic { 3 } else { 2 })
-                    {
+                    for (node, nodal) in edge.nodes().iter().copied().zip(nodal) {
                         scatter(subdomain.first_node + node, nodal);
                     }
                 }

@@ -8,7 +8,7 @@ use super::between::JoinedEdges;
 use super::curve::PlannedInterface;
 use crate::assembly::{BoundSubdomain, Model};
 use crate::error::{Code, Result, Warning};
-use crate::mesh::{Edge, Mesh, Pieces, Touch, coinciding};
+use crate::mesh::{Facet, Mesh, Pieces, Touch, coinciding};
 
 /// Boundaries that lie on each other along less only meet at a point. Of the shortest edge there.
 const MEETING: f64 = 1e-2;
@@ -37,7 +37,7 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
     let mut taken = JoinedEdges::default();
     plans.iter().for_each(|plan| taken.add(&plan.sides));
     let meshes: Vec<&Mesh> = model.subdomains.iter().map(|subdomain| &subdomain.mesh).collect();
-    let free = |subdomains: [usize; 2], edges: [&Edge; 2]| !taken.both(subdomains, edges);
+    let free = |subdomains: [usize; 2], edges: [&Facet; 2]| !taken.both(subdomains, edges);
     let touches = coinciding(&meshes, &free)?;
     let mut apart: BTreeMap<[usize; 2], ContactLine> = BTreeMap::new();
     let mut within: BTreeMap<(usize, bool), ContactLine> = BTreeMap::new();
@@ -123,8 +123,8 @@ fn on_each_other(subdomain: &BoundSubdomain, (length, middle): &ContactLine) -> 
 
 /// True unless the boundaries only meet at a point.
 fn is_line(model: &Model, touch: &Touch) -> bool {
-    let length = |subdomain: usize, edge: &Edge| {
-        let [p, q] = [0, 1].map(|i| model.subdomains[subdomain].mesh.points[edge.nodes[i]]);
+    let length = |subdomain: usize, edge: &Facet| {
+        let [p, q] = [0, 1].map(|i| model.subdomains[subdomain].mesh.points[edge.nodes()[i]]);
         (q[0] - p[0]).hypot(q[1] - p[1])
     };
     let sides = touch.subdomains.iter().zip(&touch.edges);

@@ -4,13 +4,13 @@
 
 use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side};
 use midplane::error::Result;
-use midplane::mesh::Edge;
+use midplane::mesh::Facet;
 
 /// Points and edges of a mesh's curve.
 #[derive(Debug, Clone)]
 pub struct Curve {
     pub points: Vec<[f64; 2]>,
-    pub edges: Vec<Edge>,
+    pub edges: Vec<Facet>,
     pub corners: Vec<usize>,
 }
 
@@ -39,10 +39,11 @@ impl Curve {
             } else {
                 end
             };
-            edges.push(Edge { nodes: [start, end, mid], cell: 0, boundary: true });
+            let nodes = [start, end, mid];
+            edges.push(Facet::edge(&nodes[..if mid == end { 2 } else { 3 }], 0, true));
         }
         // file order is nobody's business
-        edges.sort_by_key(|edge| edge.nodes[0].wrapping_mul(2654435761) % 1009);
+        edges.sort_by_key(|edge| edge.nodes()[0].wrapping_mul(2654435761) % 1009);
         Curve { points, edges, corners: vec![usize::MAX] }
     }
 
@@ -61,7 +62,7 @@ impl Curve {
     /// The same with all nodes numbered backwards and the edges listed backwards.
     pub fn renumbered(&self) -> Curve {
         let n = self.points.len();
-        let edge = |edge: &Edge| Edge { nodes: edge.nodes.map(|node| n - 1 - node), ..*edge };
+        let edge = |edge: &Facet| edge.renumbered(|node| n - 1 - node);
         let mut corners: Vec<usize> =
             self.corners.iter().map(|&c| if c < n { n - 1 - c } else { c }).collect();
         corners.sort_unstable();

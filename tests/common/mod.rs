@@ -3,7 +3,7 @@
 
 use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};
-use midplane::mesh::{Cells, Edge, Group, Mesh};
+use midplane::mesh::{Cells, Facet, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
@@ -58,7 +58,8 @@ fn quadratic(mesh: Mesh, shape: Shape) -> Mesh {
     for group in groups.values_mut() {
         if let Group::Edges(edges) = group {
             for edge in edges {
-                edge.nodes[2] = mid(edge.nodes[0], edge.nodes[1]);
+                let [start, end] = [edge.nodes()[0], edge.nodes()[1]];
+                *edge = Facet::edge(&[start, end, mid(start, end)], edge.cell, edge.boundary);
             }
         }
     }
@@ -97,13 +98,9 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
             on_left.insert((nodes[k], nodes[(k + 1) % nodes.len()]), c);
         }
     }
-    let edge = |start: usize, end: usize| Edge {
-        nodes: [start, end, end],
-        cell: on_left[&(start, end)],
-        boundary: true,
-    };
+    let edge = |start: usize, end: usize| Facet::edge(&[start, end], on_left[&(start, end)], true);
     let mut groups = IndexMap::new();
-    let mut curve = |name: &str, edges: Vec<Edge>| groups.insert(name.to_string(), Group::Edges(edges));
+    let mut curve = |name: &str, edges: Vec<Facet>| groups.insert(name.to_string(), Group::Edges(edges));
     curve("bottom", (0..nx).map(|i| edge(node(i, 0), node(i + 1, 0))).collect());
     curve("right", (0..ny).map(|j| edge(node(nx, j), node(nx, j + 1))).collect());
     curve("top", (0..nx).rev().map(|i| edge(node(i + 1, ny), node(i, ny))).collect());

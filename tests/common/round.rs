@@ -48,7 +48,7 @@ pub fn ring(n: usize, radii: &[f64], shape: Shape, from: f64) -> Mesh {
     mesh.groups.retain(|name, _| ["bottom", "top", "body"].contains(&name.as_str()));
     for group in mesh.groups.values_mut() {
         if let Group::Edges(edges) = group {
-            edges.iter_mut().for_each(|edge| edge.nodes = edge.nodes.map(|node| number[node]));
+            edges.iter_mut().for_each(|edge| *edge = edge.renumbered(|node| number[node]));
         }
     }
     mesh.corners = mesh.corners.iter().map(|&node| number[node]).collect();

@@ -2,7 +2,7 @@
 //! by search.
 
 use crate::error::{Error, Result};
-use crate::mesh::Edge;
+use crate::mesh::Facet;
 
 /// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
 #[derive(Debug, Clone, Copy)]
@@ -12,7 +12,7 @@ pub struct Side<'a> {
     /// Coordinates of its mesh.
     pub points: &'a [[f64; 2]],
     /// The edges in any order.
-    pub edges: &'a [Edge],
+    pub edges: &'a [Facet],
     /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
     pub corners: &'a [usize],
     /// Offset of the node numbers of the mesh: the first node of its body in the model.
@@ -66,7 +66,7 @@ pub(in crate::coupling) fn sorted(
     let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
     for curve in curves {
         for edge in curve.edges {
-            let [x, y] = curve.points[edge.nodes[0]];
+            let [x, y] = curve.points[edge.nodes()[0]];
             if !edge.boundary {
                 let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
                 return Err(error_at(what, "a side lies on the boundary of its subdomain"));
@@ -105,9 +105,9 @@ pub(in crate::coupling) fn names(curves: &[Side]) -> String {
 }
 
 impl Link {
-    fn new(curve: &Side, edge: &Edge, subdomain: Orientation, origin: [f64; 2]) -> Link {
-        let [mut start, mut end, mid] = edge.nodes;
-        let mid = (mid != end).then_some(mid);
+    fn new(curve: &Side, edge: &Facet, subdomain: Orientation, origin: [f64; 2]) -> Link {
+        let nodes = edge.nodes();
+        let (mut start, mut end, mid) = (nodes[0], nodes[1], nodes.get(2).copied());
         if subdomain == Orientation::Right {
             (start, end) = (end, start);
         }
