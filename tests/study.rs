@@ -73,7 +73,7 @@ fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
         let lower = count(&format!("{what} of lower"));
         assert_eq!([lower, count(&format!("{what} of upper"))], [6 - 3, 6 - 2], "{what}");
     }
-    assert_eq!(count("joints"), 0);
+    assert_eq!(count("interfaces"), 0);
     for row in &rows {
         let [lower, upper] = ["lower", "upper"]
             .map(|subdomain| format!("subdomains.{subdomain}.parameters.edges={}", row[subdomain]));
@@ -100,7 +100,7 @@ fn points_that_differ_in_the_law_share_everything_before_it() {
     strip.study("out", &["--threads", "1"]);
     let rows = strip.table("out");
     for (k, row) in rows.iter().enumerate() {
-        for what in ["mesh of lower", "joints", "stiffness of upper", "factor of lower", "factor of upper"] {
+        for what in ["mesh of lower", "interfaces", "stiffness of upper", "factor of lower", "factor of upper"] {
             assert_eq!(row["reused"].contains(what), k > 0, "point {k}, {what}");
         }
         assert_eq!(row["status"], "done");

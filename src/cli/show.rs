@@ -94,8 +94,8 @@ impl Show {
         let how = match totals.method {
             Method::Joined => "linear, one factor",
             Method::InParts => "linear, factors of two parts side by side",
-            Method::Condensed => "Newton's method on the jumps of the joints",
-            Method::Blocks => "Newton's method on the jumps of the joints, sparse by blocks",
+            Method::Condensed => "Newton's method on the jumps of the interfaces",
+            Method::Blocks => "Newton's method on the jumps of the interfaces, sparse by blocks",
             Method::Plain => "Newton's method on all displacements",
         };
         self.line(&format!("{:<8} {:<12} {how}", "solving", totals.method.name()));

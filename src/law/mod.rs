@@ -100,7 +100,7 @@ pub enum Unresolved {
         jump: Vector2<f64>,
     },
     /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
-    #[error("the traction leaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
+    #[error("the traction snaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
     SnapBack {
         /// Fraction of the way at which the traction snaps.
         jump: Vector2<f64>,
@@ -184,7 +184,7 @@ impl Law {
             return error_at(
                 "initial_traction",
                 format!("initial_traction [{sigma}, {tau}] lies outside the strength by {outside:.3e}"),
-                "give a traction that the sound interface can carry",
+                "give a traction that the intact interface can carry",
             );
         }
         if initial_gap != 0.0 && !matches!(self, Law::Coulomb(_)) {

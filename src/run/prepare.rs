@@ -52,7 +52,7 @@ pub(super) fn prepare_sharing(
             let key = interfaces_key(&scene, &files, &file_of);
             let known = shared.interfaces(&key);
             if known.is_some() {
-                listen(Event::Reused("joints"));
+                listen(Event::Reused("interfaces"));
             }
             let interfaces = known.as_deref().map_or(&[][..], Vec::as_slice);
             let problem = Problem::bind_joined(&scene, meshes, interfaces)?;

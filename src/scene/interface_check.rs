@@ -82,7 +82,7 @@ impl Scene {
         let [a, b] = sides;
         if let Some(both) = a.names().iter().find(|name| b.names().contains(name)) {
             let what = format!("\"{both}\" is on both sides");
-            let help = "a joint lies between two different curves";
+            let help = "an interface lies between two different curves";
             return Err(self.source.error_at(&["interfaces", name], what, help));
         }
         Ok(())

@@ -66,7 +66,7 @@ impl Cracking {
         if kt < least {
             let what = format!(
                 "tangential_stiffness = {kt:e} is not well above c0^2 e^|alpha| / G_II = {cohesion_loss:.3e} and \
-                 chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may leap just past the peak in shear"
+                 chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may snap just past the peak in shear"
             );
             let help = format!("{least:.2e} or more is safer");
             warnings.push(Warning::new(Code::LeapInShear, what, help));
@@ -78,9 +78,9 @@ impl Cracking {
             let what = format!(
                 "under compression above tangential_stiffness * fracture_energy_iia / (cohesion * (tan_friction - \
                  tan_friction_residual) * e^|alpha|) = {highest:.3e} the loss of friction alone may make the traction \
-                 leap in shear"
+                 snap in shear"
             );
-            let help = "raise tangential_stiffness if the joint will carry that";
+            let help = "raise tangential_stiffness if the interface will carry that";
             warnings.push(Warning::new(Code::LeapByFriction, what, help));
         }
         warnings
