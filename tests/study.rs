@@ -100,7 +100,9 @@ fn points_that_differ_in_the_law_share_everything_before_it() {
     strip.study("out", &["--threads", "1"]);
     let rows = strip.table("out");
     for (k, row) in rows.iter().enumerate() {
-        for what in ["mesh of lower", "interfaces", "stiffness of upper", "factor of lower", "factor of upper"] {
+        for what in
+            ["mesh of lower", "interfaces", "stiffness of upper", "factor of lower", "factor of upper"]
+        {
             assert_eq!(row["reused"].contains(what), k > 0, "point {k}, {what}");
         }
         assert_eq!(row["status"], "done");

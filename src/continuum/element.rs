@@ -2,7 +2,7 @@
 
 use super::Elasticity;
 use crate::mesh::Mesh;
-use crate::shape::{MAX_NODES, Shape, Values};
+use crate::shape::{MAX_NODES, Shape, Values, determinant, jacobian};
 
 /// Dofs of the largest element.
 pub const MAX_DOFS: usize = 2 * MAX_NODES;
@@ -27,15 +27,8 @@ pub(super) fn gradients(
     x: &[[f64; 2]; MAX_NODES],
     values: &Values,
 ) -> ([[f64; 2]; MAX_NODES], f64) {
-    let mut j = [[0.0; 2]; 2]; // j[a][d] = ∂x_d/∂ξ_a
-    for i in 0..shape.nodes() {
-        for a in 0..2 {
-            for d in 0..2 {
-                j[a][d] += values.dn[i][a] * x[i][d];
-            }
-        }
-    }
-    let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    let j = jacobian(values, &x[..shape.nodes()]);
+    let det = determinant(&j);
     let mut gradient = [[0.0; 2]; MAX_NODES];
     for i in 0..shape.nodes() {
         let [d_xi, d_eta] = values.dn[i];

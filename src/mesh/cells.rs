@@ -2,7 +2,7 @@
 
 use super::Cells;
 use super::msh::{MeshFault, damaged};
-use crate::shape::{MAX_NODES, Shape, Values};
+use crate::shape::{MAX_NODES, Shape, Values, determinant, jacobian};
 
 /// A Jacobian below this part of the cell's squared diameter counts as zero.
 const FLAT: f64 = 1e-12;
@@ -33,7 +33,7 @@ pub(super) fn orient(cells: &mut Cells, points: &[[f64; 2]], tags: &[u64]) -> Re
         let size = FLAT * squared_diameter(x);
         let probes = SHAPES.iter().position(|&s| s == shape).map_or(&[][..], |s| probes[s].as_slice());
         // written so that a Jacobian that is not a number is refused as well
-        if !probes.iter().all(|probe| jacobian(probe, x) > size) {
+        if !probes.iter().all(|probe| determinant(&jacobian(probe, x)) > size) {
             return Err(error_at(shape, tags[c], x));
         }
     }
@@ -51,19 +51,6 @@ fn probes(shape: Shape) -> Vec<Values> {
         Shape::Triangle3 => rule.collect(), // it is constant
         _ => nodes.chain(rule).collect(),
     }
-}
-
-/// det ∂x/∂ξ.
-fn jacobian(at: &Values, x: &[[f64; 2]]) -> f64 {
-    let mut j = [[0.0; 2]; 2];
-    for (x, dn) in x.iter().zip(&at.dn) {
-        for a in 0..2 {
-            for b in 0..2 {
-                j[a][b] += x[a] * dn[b];
-            }
-        }
-    }
-    j[0][0] * j[1][1] - j[0][1] * j[1][0]
 }
 
 /// Twice the area of a polygon, positive if it runs counter-clockwise.

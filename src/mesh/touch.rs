@@ -14,6 +14,7 @@ use rstar::{AABB, Envelope, RTree, RTreeObject};
 
 use super::{Facet, Mesh};
 use crate::error::Result;
+use crate::shape::vector::{dot, minus};
 
 /// Touching edges may be this far apart, and more where the boundary turns. Of their length.
 const NEAR: f64 = 1e-3;
@@ -323,12 +324,4 @@ fn find(root: &mut [usize], mut i: usize) -> usize {
         i = root[i];
     }
     i
-}
-
-fn minus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] - q[0], p[1] - q[1]]
-}
-
-fn dot(p: [f64; 2], q: [f64; 2]) -> f64 {
-    p[0] * q[0] + p[1] * q[1]
 }

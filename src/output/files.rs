@@ -48,3 +48,12 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     text.push('\n');
     write_whole(path, text.as_bytes())
 }
+
+/// A field of a CSV file: one with a comma, quote or line break is quoted.
+pub fn csv_field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
+}

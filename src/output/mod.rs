@@ -10,7 +10,7 @@ mod pvd;
 mod vtu;
 mod writer;
 
-pub use files::{write_json, write_whole};
+pub use files::{csv_field, write_json, write_whole};
 pub use geometry::write_geometry;
 pub use writer::{HistoryRow, Writer};
 

@@ -46,7 +46,7 @@ impl Writer {
         std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
         let mut history = String::from("step,increment,load_factor,iterations,residual");
         for column in columns {
-            let _ = write!(history, ",{}", quoted(column));
+            let _ = write!(history, ",{}", files::csv_field(column));
         }
         history.push_str(",energy_balance\n");
         Ok(Writer { folder: folder.into(), name: name.into(), collection: Vec::new(), history })
@@ -88,7 +88,11 @@ impl Writer {
     /// Adds a row to the history.
     pub fn row(&mut self, row: &HistoryRow) -> Result<()> {
         let HistoryRow { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
-        let _ = write!(self.history, "{},{increment},{load_factor},{iterations},{residual:e}", quoted(step));
+        let _ = write!(
+            self.history,
+            "{},{increment},{load_factor},{iterations},{residual:e}",
+            files::csv_field(step)
+        );
         for value in values {
             let _ = write!(self.history, ",{value:e}");
         }
@@ -104,13 +108,4 @@ impl Writer {
 
 fn file_name(name: &str, number: usize) -> String {
     format!("fields/{name}_{number:04}.vtu")
-}
-
-/// CSV: a field with a comma, quote or line break is quoted.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
-    }
 }

@@ -167,7 +167,8 @@ pub(super) fn check_free_subdomains(
         named(model, connectivity, &parts, &moving),
         value / limit * FREE
     );
-    let help = "hold it, or give its interfaces a stiffness in that direction: what it does is up to the mesh";
+    let help =
+        "hold it, or give its interfaces a stiffness in that direction: what it does is up to the mesh";
     Ok(Some(Warning::new(Code::HardlyHeld, what, help)))
 }
 

@@ -3,12 +3,14 @@
 //! Node orders are those of gmsh and of VTK, which agree for every plane shape used here.
 
 mod line;
+mod map;
 mod quadrilateral;
 mod rule;
 mod triangle;
 pub mod vector;
 
 pub use line::{Line2, Line3, lagrange2, lagrange3};
+pub use map::{determinant, jacobian};
 pub use rule::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Rule};
 
 /// Most nodes a plane cell can have.

@@ -12,6 +12,7 @@ use crate::history::{ModelState, Totals};
 use crate::output::HistoryRow;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::{FormulaPlace, Value};
+use crate::shape::{determinant, jacobian};
 
 /// Takes the measures of one run.
 #[derive(Debug)]
@@ -120,15 +121,15 @@ fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Optio
         let nodes = mesh.cells.nodes(c);
         for &[xi, eta, weight] in shape.field_rule() {
             let values = shape.values(xi, eta);
-            let (mut place, mut moved, mut j) = ([0.0; 2], [0.0; 2], [[0.0; 2]; 2]);
+            let (mut place, mut moved) = ([0.0; 2], [0.0; 2]);
             for (i, &node) in nodes.iter().enumerate() {
                 for d in 0..2 {
                     place[d] += values.n[i] * mesh.points[node][d];
                     moved[d] += values.n[i] * u[model.components * node + d];
-                    (0..2).for_each(|a| j[a][d] += values.dn[i][a] * mesh.points[node][d]);
                 }
             }
-            let area = weight * (j[0][0] * j[1][1] - j[0][1] * j[1][0]);
+            let x: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.points[node]).collect();
+            let area = weight * determinant(&jacobian(&values, &x));
             let place = FormulaPlace { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
             add(&mut sums, area, moved, exact, &place);
         }

@@ -11,7 +11,7 @@ use super::plan::StudyPlan;
 use super::point::StudyMeans;
 use super::reference::Limit;
 use crate::error::Result;
-use crate::output::{write_json, write_whole};
+use crate::output::{csv_field, write_json, write_whole};
 
 /// Reference of every measure.
 pub type Limits = IndexMap<String, Limit>;
@@ -137,7 +137,7 @@ fn csv(plan: &StudyPlan, limits: &Limits, points: &[PointOutcome]) -> String {
     );
     head.extend(stages.iter().map(|stage| format!("seconds.{stage}")));
     head.extend(["peak_memory_bytes", "reused", "message"].map(String::from));
-    let mut text = head.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",");
+    let mut text = head.iter().map(|cell| csv_field(cell)).collect::<Vec<_>>().join(",");
     text.push('\n');
     for outcome in points {
         let mut row = vec![outcome.point.to_string()];
@@ -157,7 +157,7 @@ fn csv(plan: &StudyPlan, limits: &Limits, points: &[PointOutcome]) -> String {
         row.push(outcome.peak_memory.map_or_else(String::new, |bytes| bytes.to_string()));
         row.push(outcome.reused.join("; "));
         row.push(outcome.message.clone());
-        let _ = writeln!(text, "{}", row.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(","));
+        let _ = writeln!(text, "{}", row.iter().map(|cell| csv_field(cell)).collect::<Vec<_>>().join(","));
     }
     text
 }
@@ -168,14 +168,5 @@ fn shown(value: &Value) -> String {
         Value::Null => String::new(),
         Value::String(text) => text.clone(),
         other => other.to_string(),
-    }
-}
-
-/// CSV: a field with a comma, quote or line break is quoted.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
     }
 }
