@@ -35,7 +35,7 @@ pub(in crate::history) struct Converged {
     pub(in crate::history) solution: Option<NodalSolution>,
     /// Measures in their place otherwise.
     pub(in crate::history) ledger: Option<Ledger>,
-    /// Joints whose jumps are unknowns.
+    /// Interfaces whose jumps are unknowns.
     pub(in crate::history) interfaces: Vec<InterfaceResponse>,
     /// Viscous work [force × length].
     pub(in crate::history) released: f64,

@@ -77,7 +77,7 @@ impl<'a> Start<'a> {
         Start { problem, step, initial, u, reactions }
     }
 
-    /// Loads at a level.
+    /// Loads at a load factor.
     pub(super) fn at(&self, load_factor: f64) -> Result<StepLoad<'_>> {
         let load = StepLoad { load_factor, start: self, forces: OnceCell::new() };
         if !self.step.follows_load_factor() {

@@ -87,9 +87,9 @@ enum Phase {
     /// Its loads are still to be prepared.
     Loads,
     /// Increments of the load factor.
-    StepLoad(LoadStep),
+    Load(LoadStep),
     /// Increments along the path.
-    PathSearch(PathStep),
+    Path(PathStep),
     /// No equilibrium beyond an increment, at a load factor; the last one has been given once more, or not.
     Lost { number: usize, load_factor: f64, why: Unconverged, shown: bool },
 }
@@ -144,7 +144,7 @@ impl<'a> History<'a> {
                     step,
                     &start,
                     ramp.as_ref(),
-                    matches!(position.phase, Phase::PathSearch(_)),
+                    matches!(position.phase, Phase::Path(_)),
                 );
                 loads = Some((start, ramp));
             }
@@ -205,10 +205,8 @@ impl<'a> History<'a> {
                 position.phase = Phase::Loads;
                 return Ok((step_number == 0).then_some(at));
             }
-            (Phase::StepLoad(at), Some((start, _))) => load::next(analysis, step, start, at)?,
-            (Phase::PathSearch(at), Some((start, Some(ramp)))) => {
-                path::next(analysis, step, start, ramp, at)?
-            }
+            (Phase::Load(at), Some((start, _))) => load::next(analysis, step, start, at)?,
+            (Phase::Path(at), Some((start, Some(ramp)))) => path::next(analysis, step, start, ramp, at)?,
             (Phase::Lost { number, load_factor, why, shown }, loads) => {
                 let increment = analysis.totals.increments;
                 if let (false, Some((start, _)), 1..) = (*shown, loads, increment) {
@@ -220,7 +218,7 @@ impl<'a> History<'a> {
                 }
                 return Err(no_equilibrium(analysis.problem, step, *number, increment, *load_factor, why));
             }
-            (Phase::Loads | Phase::StepLoad(_) | Phase::PathSearch(_), _) => {
+            (Phase::Loads | Phase::Load(_) | Phase::Path(_), _) => {
                 self.open(step_number, step)?;
                 return Ok(None);
             }
@@ -258,8 +256,8 @@ impl<'a> History<'a> {
         let thrifty = load::prepare(analysis, step, &start, ramp.as_ref(), follows);
         analysis.state.open(ramp.as_ref().filter(|_| thrifty).map(|ramp| start.ledger(ramp)));
         position.phase = match follows {
-            true => Phase::PathSearch(PathStep::new(step, analysis.state.dissipated)),
-            false => Phase::StepLoad(LoadStep::new(step, thrifty)),
+            true => Phase::Path(PathStep::new(step, analysis.state.dissipated)),
+            false => Phase::Load(LoadStep::new(step, thrifty)),
         };
         *loads = Some((start, ramp));
         Ok(())

@@ -47,7 +47,7 @@ pub struct ModelState {
     largest: f64,
     /// Measures of a step without displacements; none outside such a step.
     ledger: Option<Ledger>,
-    /// Joints whose jumps were found as unknowns, not taken from displacements.
+    /// Interfaces whose jumps were found as unknowns, not taken from displacements.
     found: Vec<bool>,
 }
 

@@ -19,7 +19,7 @@ pub(super) const SMALLEST: usize = 20;
 /// `TRACTIONS` times an increment's part may change.
 pub(super) const WIDE: f64 = 2.0;
 pub(super) const TRACTIONS: f64 = 4.0;
-/// Joints that carry less than this part of the most that they have carried are exhausted.
+/// Interfaces that carry less than this part of the most that they have carried are exhausted.
 const EXHAUSTED: f64 = 1e-4;
 
 /// Change of what the interfaces carry, relative to what they carry now; of exhausted interfaces, to a small part of the most.

@@ -1,4 +1,4 @@
-//! Joints that nothing holds: what keeps the Jacobian regular, and keeps their sides from touching by rounding.
+//! Interfaces that nothing holds: what keeps the Jacobian regular, and keeps their sides from touching by rounding.
 
 use super::evaluation::Evaluation;
 use super::{Form, Respond};

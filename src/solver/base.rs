@@ -1,4 +1,4 @@
-//! The base system K₀ = K + Gᵀ T₀ G of one set of supports: soft springs in place of the laws.
+//! The base system K₀ = K + Gᵀ T₀ G of one set of supports: a soft base stiffness in place of the laws.
 //!
 //! T₀ has the size E/h, never K_N, so that K₀ is positive definite also for floating bodies and well conditioned; what the
 //! laws answer differently is the business of the interface problem (`dual`).
@@ -21,7 +21,7 @@ pub struct Base<'a> {
     continuum: &'a Continuum,
     condensation: Arc<Condensation>,
     pub(super) interfaces: &'a [InterfaceOperator],
-    /// Law stiffness of every interface's springs, components² values per law point.
+    /// Base stiffness of every interface, components² values per law point.
     stiffness: &'a [Vec<f64>],
     constrained: Vec<bool>,
     /// L of S + Gᵀ T₀ G with the supports on interfaces.
@@ -29,7 +29,7 @@ pub struct Base<'a> {
 }
 
 impl<'a> Base<'a> {
-    /// Adds springs and supports on the interfaces to a condensation that serves these supports.
+    /// Adds base stiffness and supports on the interfaces to a condensation that serves these supports.
     pub fn new(
         continuum: &'a Continuum,
         condensation: Arc<Condensation>,

@@ -4,7 +4,7 @@
 //!   S = diag(S₁, S₂, …)      S of every body as in `substructure`: no node belongs to two bodies
 //! ```
 //!
-//! Springs and supports on the interfaces act on S alone, so that they never touch the sparse factors.
+//! Base stiffness and supports on the interfaces act on S alone, so that they never touch the sparse factors.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};

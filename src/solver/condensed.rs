@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Neither F₀ nor T is inverted: F₀ is singular where interface nodes are held, T where an interface slides or is open. The
-//! system is well conditioned at every K_N. Elastic interfaces are part of K₀, only the others are asked (`active`).
+//! system is well conditioned at every K_N. Elastic interfaces are part of K₀, only the others respond (`active`).
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
@@ -21,7 +21,7 @@ use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Forces of the interfaces below this part of what springs in their place would carry are no measure of their own.
+/// Forces of the interfaces below this part of what the base stiffness would carry are no measure of their own.
 const SLIGHT: f64 = 1e-3;
 /// Jumps this many times those of the base system have no hold.
 const RUN_AWAY: f64 = 100.0;
@@ -43,7 +43,7 @@ pub struct Condensed<'a> {
 }
 
 impl<'a> Condensed<'a> {
-    /// Condenses a base system on the interfaces in `active`, whose springs are `stiffness` at every law point and whose laws
+    /// Condenses a base system on the interfaces in `active`, whose base stiffness is `stiffness` at every law point and whose laws
     /// have the stiffness `intact` there before anything has cracked or slipped.
     pub fn new(
         base: Base<'a>,
@@ -136,7 +136,7 @@ impl Form for Condensed<'_> {
     }
 
     /// Forces of the base stiffness for the misfit, over what the interfaces carry. If they carry nothing a small part of
-    /// what the springs alone would carry stands for it.
+    /// what the base stiffness alone would carry stands for it.
     fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let (mut misfit, mut scale) = (0.0, 0.0);

@@ -1,4 +1,4 @@
-//! Loads that are affine in their level, and constraints that say how far an increment on their path goes.
+//! Loads that are affine in the load factor, and constraints that say how far an increment on their path goes.
 //!
 //! ```text
 //! g = Σ h w ΔD(r) / Δτ − 1             the energy that the interfaces dissipate: it never decreases
@@ -11,12 +11,12 @@
 use super::evaluation::Evaluation;
 use super::{Form, Respond};
 
-/// A load that is affine in its level: b₀ and b₁.
+/// A load that is affine in the load factor: b₀ and b₁.
 #[derive(Debug, Clone)]
 pub struct Affine {
-    /// Target at level 0.
+    /// Target at load factor 0.
     pub start: Vec<f64>,
-    /// Its change up to level 1.
+    /// Its change up to load factor 1.
     pub change: Vec<f64>,
 }
 
@@ -27,7 +27,7 @@ impl Affine {
         Affine { start, change }
     }
 
-    /// The target at a level.
+    /// The target at a load factor.
     pub fn at(&self, load_factor: f64) -> Vec<f64> {
         self.start.iter().zip(&self.change).map(|(start, change)| start + load_factor * change).collect()
     }

@@ -31,16 +31,16 @@ use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Forces below this part of what springs in place of the interfaces would carry are no measure of their own.
+/// Forces below this part of what the base stiffness would carry are no measure of their own.
 const SLIGHT: f64 = 1e-3;
 
-/// The form of many bodies under one set of supports; all interfaces are asked.
+/// The form of many bodies under one set of supports; all interfaces respond.
 #[derive(Debug)]
 pub struct FloatingSubdomains<'a> {
     subdomains: FloatingModes<'a>,
     interfaces: &'a [InterfaceOperator],
     active: Vec<usize>,
-    /// Springs of the size of E/h: they measure jumps as forces.
+    /// Base stiffness of the size of E/h: it measures jumps as forces.
     base_stiffness: Vec<Csr>,
     /// First unknown of every interface; the rigid motions follow the last.
     first: Vec<usize>,
@@ -50,7 +50,7 @@ pub struct FloatingSubdomains<'a> {
 }
 
 impl<'a> FloatingSubdomains<'a> {
-    /// Condenses every body on the interfaces for itself. `stiffness`: springs of the size of E/h at every law point.
+    /// Condenses every body on the interfaces for itself. `stiffness`: base stiffness of the size of E/h at every law point.
     pub fn new(
         continuum: &'a Continuum,
         condensation: Arc<Condensation>,

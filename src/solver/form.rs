@@ -30,21 +30,21 @@ pub trait Respond: Sync {
 pub trait Form {
     /// All interfaces.
     fn interfaces(&self) -> &[InterfaceOperator];
-    /// Numbers of the interfaces whose laws are asked.
+    /// Numbers of the interfaces whose laws respond.
     fn active(&self) -> &[usize];
     /// b of R(x) = A(x) − b for external forces and prescribed displacements (read where held); affine in both.
     fn target(&self, force: &[f64], prescribed: &[f64]) -> Vec<f64>;
     /// Prepares what loads that are affine in the load factor allow; false if that is nothing, as of a form that does not say
-    /// otherwise. Then `prepared` has the target at a level, and `measured` what was asked for, without recovering
+    /// otherwise. Then `prepared` has the target at a load factor, and `measured` what was asked for, without recovering
     /// displacements.
     fn prepare(&mut self, _ramp: Option<&Ramp>, _measures: &[LinearMeasure]) -> bool {
         false
     }
-    /// b at a level of the prepared loads.
+    /// b at a load factor of the prepared loads.
     fn prepared(&self, _load_factor: f64) -> Vec<f64> {
         Vec::new()
     }
-    /// The measures of a solution at a level of the prepared loads.
+    /// The measures of a solution at a load factor of the prepared loads.
     fn measured(&self, _load_factor: f64, _x: &[f64], _forces: &[Vec<f64>]) -> Vec<f64> {
         Vec::new()
     }

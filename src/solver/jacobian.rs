@@ -7,7 +7,7 @@
 //!
 //! Only the small matrix of R is factored in an iteration: a sliding point has one row of its two, an intact one none. The base
 //! depends on the supports alone and not on the way here, so that a run repeats bit by bit from any of its increments.
-//! The whole is factored where hardly a row is intact, and where intact springs are much stiffer than the base: then
+//! The whole is factored where hardly a row is intact, and where intact stiffnesses are much larger than the base: then
 //! 1 + ΔT W is what is left of a difference.
 
 use faer::{Mat, MatRef};
@@ -19,7 +19,7 @@ use crate::sparse::Csr;
 
 /// Largest part of all rows that is updated: the cubes of the sizes are then as one to two.
 const PART: f64 = 0.8;
-/// Sound springs of at most this many times the base springs leave half of the digits to 1 + ΔT W.
+/// Intact stiffnesses of at most this many times the base stiffness leave half of the digits to 1 + ΔT W.
 const STIFFER: f64 = 1e4;
 
 /// The Jacobian of the condensed form.
@@ -29,15 +29,15 @@ pub(super) struct Jacobian {
     base_stiffness: Csr,
     /// Values of Tₛ.
     intact: Vec<f64>,
-    /// Sound springs are not too stiff for updates.
+    /// Intact stiffnesses are not too large for updates.
     updates: bool,
-    base: Option<Sound>,
+    base: Option<IntactFactor>,
     /// Values of T, and the factor for them.
     factored: Option<(Vec<f64>, JacobianFactor)>,
 }
 
 #[derive(Debug)]
-struct Sound {
+struct IntactFactor {
     lu: Lu,
     /// W.
     flexibility: Mat<f64>,
@@ -50,7 +50,7 @@ enum JacobianFactor {
 }
 
 impl Jacobian {
-    /// For interfaces with these springs T₀ and intact stiffnesses Tₛ on the same patterns.
+    /// For interfaces with this base stiffness T₀ and intact stiffnesses Tₛ on the same patterns.
     pub(super) fn new(base_stiffness: &[Csr], intact: &[Csr]) -> Jacobian {
         let (base_stiffness, intact) = (stack(base_stiffness), stack(intact).values);
         let stiffer = |(s, t): (&f64, &f64)| s.abs() > STIFFER * t.abs() && *s != 0.0;
@@ -68,7 +68,10 @@ impl Jacobian {
         let rows: Vec<usize> = (0..change.rows()).filter(|&i| !change.row(i).0.is_empty()).collect();
         let factor = if self.updates && rows.len() as f64 <= PART * change.rows() as f64 {
             let of_base = || {
-                Sound::new(flexibility, &self.base_stiffness.less(&self.intact, &self.base_stiffness.values))
+                IntactFactor::new(
+                    flexibility,
+                    &self.base_stiffness.less(&self.intact, &self.base_stiffness.values),
+                )
             };
             let base = self.base.get_or_insert_with(of_base);
             let mut matrix = Mat::<f64>::zeros(rows.len(), rows.len());
@@ -111,12 +114,12 @@ impl Jacobian {
     }
 }
 
-impl Sound {
-    fn new(flexibility: MatRef<f64>, stiffer: &Csr) -> Sound {
+impl IntactFactor {
+    fn new(flexibility: MatRef<f64>, stiffer: &Csr) -> IntactFactor {
         let lu = Lu::new(whole(flexibility, stiffer));
         let mut moved = flexibility.to_owned();
         lu.solve_many(moved.as_mut());
-        Sound { lu, flexibility: moved }
+        IntactFactor { lu, flexibility: moved }
     }
 }
 

@@ -84,7 +84,7 @@ impl Functional {
         functionals
     }
 
-    /// Its value at a level for what the interfaces carry beyond their springs.
+    /// Its value at a load factor for what the interfaces carry beyond their base stiffness.
     pub(super) fn value(&self, load_factor: f64, excess: &[f64]) -> f64 {
         let [start, end] = self.ends;
         let interfaces = self.weights.iter().zip(excess).map(|(weight, e)| weight * e).sum::<f64>();

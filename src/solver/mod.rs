@@ -1,5 +1,6 @@
 //! Solving K u + Gᵀ q(G u) = f. Knows no mesh and no law by name: it sees matrices, interfaces and their stiffness.
 
+mod aim;
 mod apart;
 mod base;
 mod block;

@@ -11,8 +11,7 @@
 //! y = J⁻¹ R and z = J⁻¹ b₁. The line search halves a step until the residual decreases: where points open, stick and slide by
 //! turns, full steps run in circles.
 
-use std::borrow::Cow;
-
+use super::aim::Aim;
 use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
 use super::evaluation::{Evaluation, evaluate, unconverged};
 use super::{Affine, Constraint, Form, Iterate, NewtonSettings, PathPoint, Respond, Unconverged};
@@ -36,14 +35,6 @@ const MET: f64 = 1e-2;
 #[derive(Debug)]
 pub struct Newton {
     pub(super) tangents: Vec<InterfaceTangent>,
-}
-
-/// The equilibrium that is sought.
-enum Aim<'a> {
-    /// Under a load.
-    Load(&'a [f64]),
-    /// Along the path of a load, as far as a constraint says.
-    Path(&'a Affine, &'a Constraint),
 }
 
 impl Newton {
@@ -242,54 +233,6 @@ impl Newton {
                 }
                 tangent.fill(interface, &stiffness);
             }
-        }
-    }
-}
-
-impl Aim<'_> {
-    /// b at a load factor.
-    fn target(&self, load_factor: f64) -> Cow<'_, [f64]> {
-        match self {
-            Aim::Load(target) => Cow::Borrowed(target),
-            Aim::Path(load, _) => Cow::Owned(load.at(load_factor)),
-        }
-    }
-
-    /// g.
-    fn missing<L: Respond>(&self, form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> f64 {
-        match self {
-            Aim::Load(_) => 0.0,
-            Aim::Path(_, constraint) => constraint.missing(form, laws, now),
-        }
-    }
-
-    /// Size of what is left of both equations.
-    fn merit(&self, error: f64, missing: f64, tolerance: f64) -> f64 {
-        match self {
-            Aim::Load(_) => error,
-            Aim::Path(..) => error.max(tolerance).hypot(missing),
-        }
-    }
-
-    /// Most halvings of a step.
-    fn halvings(&self) -> usize {
-        match self {
-            Aim::Load(_) => 10,
-            Aim::Path(..) => 8,
-        }
-    }
-
-    fn singular(&self) -> &'static str {
-        match self {
-            Aim::Load(_) => "the tangent is singular: nothing holds what slides or opens",
-            Aim::Path(..) => "the path is singular",
-        }
-    }
-
-    fn unanswered(&self) -> &'static str {
-        match self {
-            Aim::Load(_) => "the laws have no answer along the correction",
-            Aim::Path(..) => "the laws have no answer along the path",
         }
     }
 }

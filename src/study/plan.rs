@@ -1,4 +1,4 @@
-//! A study that is ready to be run: its points, checked at the door, and the runs of its reference.
+//! A study that is ready to be run: its points, validated, and the runs of its reference.
 
 use std::path::{Path, PathBuf};
 

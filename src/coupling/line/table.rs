@@ -41,27 +41,23 @@ fn facets(chain: &Chain) -> Facets {
     }
 }
 
-/// The place η of a segment at arc length `s`, of a weight and with functions of the grid.
+/// The place η of a segment at arc length `s`, without weight and functions of the grid; and the length of C per η there.
 fn place(c: &LineMidplane, segment: usize, eta: f64, s: f64) -> (Place, f64) {
     let (spot, g) = (c.spot(segment, eta), &c.segments[segment]);
     let on = |chain: &Chain, angles: &Angles, facet: usize, xi: f64| {
-        (
-            chain.point(facet, xi),
-            angles.to_curve(chain, facet, xi),
-            OnFacet { facet, xi: [xi, 0.0], off: [0.0; 3] },
-        )
+        let on = OnFacet { facet, xi: [xi, 0.0], off: in_space(angles.to_curve(chain, facet, xi)) };
+        (on, in_space(chain.point(facet, xi)))
     };
-    let (x_a, off_a, on_a) = on(&c.a, &c.angles[0], g.edge_a, spot.xi_a);
-    let (x_b, off_b, on_b) = on(&c.b, &c.angles[1], g.edge_b, spot.xi_b);
-    let apart = plus(minus(x_b, x_a), minus(off_b, off_a));
+    let (on_a, x_a) = on(&c.a, &c.angles[0], g.edge_a, spot.xi_a);
+    let (on_b, x_b) = on(&c.b, &c.angles[1], g.edge_b, spot.xi_b);
     let [n, t] = spot.rotation;
     let place = Place {
         weight: 0.0,
         s,
         position: in_space(spot.position),
         frame: [in_space(n), in_space(t), [0.0, 0.0, 1.0]],
-        apart: in_space(apart),
-        on: [OnFacet { off: in_space(off_a), ..on_a }, OnFacet { off: in_space(off_b), ..on_b }],
+        apart: plus(minus(x_b, x_a), minus(on_b.off, on_a.off)),
+        on: [on_a, on_b],
         functions: Vec::new(),
     };
     (place, spot.speed)

@@ -203,7 +203,7 @@ fn settings(solution: &Solution) -> NewtonSettings {
     NewtonSettings { tolerance, iterations, patience, initial_tangent }
 }
 
-/// Law stiffness of an interface's springs: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
+/// Base stiffness of an interface: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
 /// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
 fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -> Vec<f64> {
     let (interface, law) = (&problem.model.interfaces[k], &problem.interfaces[k].law);

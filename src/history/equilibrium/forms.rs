@@ -36,7 +36,7 @@ pub(super) fn condensations<'a>(continuum: &'a Continuum) -> Make<'a, Arc<Conden
     })
 }
 
-/// On the jump coefficients of the interfaces in `asked`.
+/// On the jump coefficients of the interfaces in `condensed_interfaces`.
 pub(super) fn condensed<'a>(
     problem: &'a Problem,
     continuum: &'a Continuum,

@@ -131,7 +131,7 @@ pub(in crate::history) trait Engine {
     /// Relative out-of-balance force of the last accepted state under a load, without any viscosity.
     fn imbalance(&self, state: &ModelState, load: &StepLoad) -> f64;
 
-    /// Equilibrium further along a path from the last accepted one at `level`, wherever its load factor is.
+    /// Equilibrium further along a path from the last accepted one at `load_factor`, wherever its load factor is.
     fn follow(
         &mut self,
         state: &ModelState,

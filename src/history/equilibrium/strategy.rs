@@ -28,13 +28,13 @@ pub struct Operations {
     pub plain: f64,
 }
 
-/// Joints that are not elastic.
+/// Interfaces that are not elastic.
 pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
     let laws = problem.laws().enumerate();
     laws.filter(|(_, law)| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
 }
 
-/// Joints whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear
+/// Interfaces whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear
 /// and its displacements will do.
 pub(in crate::history) fn condensed_interfaces(problem: &Problem) -> Vec<usize> {
     let active = active(problem);
