@@ -8,6 +8,7 @@ use indexmap::IndexMap;
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, join};
 use midplane::mesh::{Cells, Facet, Group, Mesh, touching};
 use midplane::shape::Shape;
+use midplane::shape::vector::in_space;
 
 const RUNS: usize = 7;
 const SCHEME: Scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
@@ -57,9 +58,9 @@ fn least<T>(run: impl Fn() -> T) -> (f64, T) {
 }
 
 /// Points and edges of a side.
-fn curve(n: usize, closed: bool, forward: bool, at: &dyn Fn(f64) -> [f64; 2]) -> (Vec<[f64; 2]>, Vec<Facet>) {
+fn curve(n: usize, closed: bool, forward: bool, at: &dyn Fn(f64) -> [f64; 2]) -> (Vec<[f64; 3]>, Vec<Facet>) {
     let nodes = if closed { n } else { n + 1 };
-    let points = (0..nodes).map(|i| at(i as f64 / n as f64)).collect();
+    let points = (0..nodes).map(|i| in_space(at(i as f64 / n as f64))).collect();
     let edge = |i: usize| {
         let (p, q) = (i, (i + 1) % nodes);
         let [start, end] = if forward { [p, q] } else { [q, p] };
@@ -71,7 +72,7 @@ fn curve(n: usize, closed: bool, forward: bool, at: &dyn Fn(f64) -> [f64; 2]) ->
 /// A row of n quadrilaterals from y = 0 to `height`, 1 long.
 fn strip(n: usize, height: f64) -> Mesh {
     let (low, high) = (height.min(0.0), height.max(0.0));
-    let row = |y: f64| (0..=n).map(move |i| [i as f64 / n as f64, y]);
+    let row = |y: f64| (0..=n).map(move |i| [i as f64 / n as f64, y, 0.0]);
     let points = row(low).chain(row(high)).collect();
     let mut cells = Cells::default();
     (0..n).for_each(|i| cells.push(Shape::Quadrilateral4, &[i, i + 1, n + 2 + i, n + 1 + i]));

@@ -5,9 +5,10 @@ mod common;
 use common::{even, graded};
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
 use midplane::mesh::Facet;
+use midplane::shape::vector::{in_plane, in_space};
 use proptest::prelude::*;
 
-fn side<'a>(name: &'a str, points: &'a [[f64; 2]], edges: &'a [Facet]) -> Side<'a> {
+fn side<'a>(name: &'a str, points: &'a [[f64; 3]], edges: &'a [Facet]) -> Side<'a> {
     Side { name, points, edges, corners: &[], first: 0 }
 }
 
@@ -17,14 +18,14 @@ fn join(a: Side, b: Side, kind: JumpScheme, points: Points) -> midplane::error::
 
 /// An interface along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.
 struct Line {
-    points_a: Vec<[f64; 2]>,
-    points_b: Vec<[f64; 2]>,
+    points_a: Vec<[f64; 3]>,
+    points_b: Vec<[f64; 3]>,
 }
 
 impl Line {
     fn new(s_a: &[f64], s_b: &[f64], degrees: f64, gap: f64) -> Line {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let at = |s: f64, n: f64| [0.3 + s * cos - n * sin, -0.7 + s * sin + n * cos];
+        let at = |s: f64, n: f64| [0.3 + s * cos - n * sin, -0.7 + s * sin + n * cos, 0.0];
         Line {
             points_a: s_a.iter().map(|&s| at(s, 0.0)).collect(),
             points_b: s_b.iter().map(|&s| at(s, gap)).collect(),
@@ -62,8 +63,8 @@ impl Line {
         } else {
             (&self.points_a, &self.points_b, a, b)
         };
-        let of_a = c.sides[0].nodes.iter().flat_map(|&node| f(first[node]));
-        let of_b = c.sides[1].nodes.iter().flat_map(|&node| g(second[node]));
+        let of_a = c.sides[0].nodes.iter().flat_map(|&node| f(in_plane(first[node])));
+        let of_b = c.sides[1].nodes.iter().flat_map(|&node| g(in_plane(second[node])));
         of_a.chain(of_b).collect()
     }
 }
@@ -305,7 +306,7 @@ proptest! {
 /// Claim: what cannot be joined is refused with the reason and its size.
 #[test]
 fn sides_that_do_not_face_each_other_are_refused() {
-    let refusal = |points_a: &[[f64; 2]], points_b: &[[f64; 2]], turn: bool| {
+    let refusal = |points_a: &[[f64; 3]], points_b: &[[f64; 3]], turn: bool| {
         let (back, forth) = (edges(points_a.len(), true), edges(points_b.len(), turn));
         let a = side("lower.top", points_a, &back);
         let b = side("upper.bottom", points_b, &forth);
@@ -325,15 +326,15 @@ fn sides_that_do_not_face_each_other_are_refused() {
             "gap of 1.000e-2 over a length of 1.000e0, near (0.500000, 0.005000)",
         ),
     ] {
-        let message = refusal(&a, &b, turn);
+        let message = refusal(&a.map(in_space), &b.map(in_space), turn);
         assert!(message.starts_with("interface joint: ") && message.contains(expected), "{message}");
     }
 }
 
 /// A side of quadratic edges between the given places along y = 0.3, as points and edges; `backwards` for side A.
-fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Facet>) {
+fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 3]>, Vec<Facet>) {
     let mids = s.windows(2).map(|w| 0.5 * (w[0] + w[1]));
-    let points = s.iter().copied().chain(mids).map(|s| [s, 0.3]).collect();
+    let points = s.iter().copied().chain(mids).map(|s| [s, 0.3, 0.0]).collect();
     let edge = |i: usize| {
         let (start, end) = if backwards { (i + 1, i) } else { (i, i + 1) };
         Facet::edge(&[start, end, s.len() + i], 0, true)
@@ -342,8 +343,8 @@ fn quadratic_side(s: &[f64], backwards: bool) -> (Vec<[f64; 2]>, Vec<Facet>) {
 }
 
 fn couple(
-    a: &(Vec<[f64; 2]>, Vec<Facet>),
-    b: &(Vec<[f64; 2]>, Vec<Facet>),
+    a: &(Vec<[f64; 3]>, Vec<Facet>),
+    b: &(Vec<[f64; 3]>, Vec<Facet>),
     kind: JumpScheme,
     points: Points,
 ) -> Coupling {
@@ -355,8 +356,8 @@ fn couple(
 /// Displacements in the order of the columns.
 fn columns(
     c: &Coupling,
-    a: &[[f64; 2]],
-    b: &[[f64; 2]],
+    a: &[[f64; 3]],
+    b: &[[f64; 3]],
     f: impl Fn(f64) -> f64,
     g: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
@@ -411,7 +412,7 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
     for (n_a, n_b) in DENSITIES {
         let (s_a, s_b) = (even(0.0, 2.0, n_a), graded(0.0, 2.0, n_b.max(2), 3.0));
         let (a, b) = (quadratic_side(&s_a, true), quadratic_side(&s_b, false));
-        let straight = (s_b.iter().map(|&s| [s, 0.3]).collect::<Vec<_>>(), edges(s_b.len(), false));
+        let straight = (s_b.iter().map(|&s| [s, 0.3, 0.0]).collect::<Vec<_>>(), edges(s_b.len(), false));
         for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
             let c = couple(&a, &b, kind, Points::Gauss);
             let (f, g) = (|x: f64| 0.1 - x + 0.5 * x * x, |x: f64| 0.3 * x - 0.2 * x * x);

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use chains::*;
 use midplane::coupling::Coupling;
+use midplane::shape::vector::in_plane;
 use proptest::prelude::*;
 
 /// A curve by its shape, scaled to a length of about one.
@@ -119,7 +120,7 @@ fn field(x: [f64; 2], side: usize) -> [f64; 2] {
 }
 
 fn displacements(curves: [&Curve; 2]) -> Vec<[f64; 2]> {
-    let of = |side: usize| curves[side].points.iter().map(move |&x| field(x, side));
+    let of = |side: usize| curves[side].points.iter().map(move |&x| field(in_plane(x), side));
     of(0).chain(of(1)).collect()
 }
 
@@ -197,7 +198,7 @@ proptest! {
     fn rigid_motions_and_balance(pair in pairs()) {
         let (a, b) = (pair.curve(0), pair.curve(1));
         let n = a.points.len();
-        let x: Vec<[f64; 2]> = a.points.iter().chain(&b.points).copied().collect();
+        let x: Vec<[f64; 2]> = a.points.iter().chain(&b.points).map(|&x| in_plane(x)).collect();
         let rigid: Vec<[f64; 2]> = x.iter().map(|[x, y]| [0.3 - y, x - 0.2]).collect();
         let step: Vec<[f64; 2]> = (0..x.len()).map(|i| if i < n { [0.0; 2] } else { [0.4, -0.7] }).collect();
         for scheme in ALL {
@@ -242,7 +243,7 @@ fn a_turned_circle_has_no_jump() {
             if n == 3 && !quadratic {
                 continue; // a triangle is no circle
             }
-            let u: Vec<[f64; 2]> = a.points.iter().chain(&b.points).map(|[x, y]| [-y, *x]).collect();
+            let u: Vec<[f64; 2]> = a.points.iter().chain(&b.points).map(|[x, y, _]| [-y, *x]).collect();
             for scheme in ALL {
                 let jump = largest(&jumps(&couple(&a, &b, scheme), &u));
                 assert!(jump < 1e-13, "{n}:{m} {scheme:?}: {jump:e}");

@@ -44,7 +44,7 @@ fn two_surfaces_of_one_mesh_are_joined_along_a_circle() {
         let state = solve(&problem).0.remove(0);
         let (limit, scale) = (10.0 * e / (k * PI / n as f64), 2e-3);
         for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
-            for (i, [x, y]) in subdomain.mesh.points.iter().enumerate() {
+            for (i, [x, y, _]) in subdomain.mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, b, i);
                 close(u[0], 2e-3 * x + 1e-3 * y, limit, scale, &format!("{shape:?} u_x"));
                 close(u[1], 3e-4 * x - 1e-3 * y, limit, scale, &format!("{shape:?} u_y"));

@@ -16,6 +16,7 @@ use midplane::history::ModelState;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
+use midplane::shape::vector::in_plane;
 
 const PROJECTED: (JumpScheme, Points) = (JumpScheme::Projected, Points::Gauss);
 /// Uniform compression, E = 1e4, ν = 0: σ_yy = −p, nothing else.
@@ -405,7 +406,7 @@ fn b42_corners_of_90_and_of_almost_180_degrees() {
             curve
         };
         let (a, b) = (curve(5, false), curve(8, true));
-        let x: Vec<[f64; 2]> = a.points.iter().chain(&b.points).copied().collect();
+        let x: Vec<[f64; 2]> = a.points.iter().chain(&b.points).map(|&x| in_plane(x)).collect();
         for scheme in ALL {
             let c = join(&[&a], &[&b], scheme).unwrap();
             assert_eq!(c.midplane.pieces.len(), 2, "{degrees}°");

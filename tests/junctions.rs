@@ -110,7 +110,7 @@ fn passes(blocks: Vec<Block>, state: &Uniform, interfaces: &str, case: &str) -> 
     let size = state.stress.iter().fold(0.0_f64, |size, s| size.max(s.abs()));
     for (b, subdomain) in problem.model.subdomains.iter().enumerate() {
         for (node, &x) in subdomain.mesh.points.iter().enumerate() {
-            let exact = state.u(at[b][0], at[b][1], x);
+            let exact = state.u(at[b][0], at[b][1], [x[0], x[1]]);
             let u = displacement(&problem, &states[0], b, node);
             (0..2).for_each(|d| {
                 close(u[d], exact[d], 1e-10, size / E, &format!("{case}: u of {}", subdomain.name))
@@ -193,7 +193,7 @@ fn b27_pairs_that_share_a_node_have_no_null_modes() {
                 problem.model.subdomains.iter().position(|subdomain| subdomain.name == name).unwrap();
             let points = &problem.model.subdomains[subdomain].mesh.points;
             problem.model.subdomains[subdomain].first_node
-                + points.iter().position(|p| *p == [1.0, 1.0]).unwrap()
+                + points.iter().position(|p| *p == [1.0, 1.0, 0.0]).unwrap()
         };
         let mut copies = ["sw", "se", "nw", "ne"].map(corner);
         copies.sort_unstable();

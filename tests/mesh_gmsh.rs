@@ -38,7 +38,7 @@ fn check_block(mesh: &Mesh, quadratic: bool) {
                 .all(|e| direction * (mesh.points[e.nodes()[1]][0] - mesh.points[e.nodes()[0]][0]) > 0.0)
         );
     }
-    assert!(matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0, 0.0]));
+    assert!(matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0; 3]));
 }
 
 #[test]
@@ -229,7 +229,7 @@ fn parameters_reach_gmsh_with_every_digit() {
     let place = Place::new("block.geo", &geo);
     for x in [0.1 + 0.2 + 1.0, 1.0 + 1.0 / 3.0, 1e3] {
         let mesh = read(&place.mesh(&[("x", x)]).unwrap().path).unwrap();
-        assert!(mesh.points.contains(&[x, 0.0]), "{x}");
+        assert!(mesh.points.contains(&[x, 0.0, 0.0]), "{x}");
     }
 }
 

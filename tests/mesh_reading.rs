@@ -9,6 +9,7 @@ use std::path::Path;
 use mesh_text::{Form, MeshText, area, block, close, edges, keeps_its_promises, length, strip};
 use midplane::mesh::{Group, Mesh, from_bytes};
 use midplane::shape::Shape;
+use midplane::shape::vector::in_plane;
 
 const FORMS: [Form; 3] = [Form::Text, Form::Little, Form::Big];
 
@@ -33,10 +34,7 @@ fn refusal(text: &MeshText) -> String {
 
 /// Start and end of the edges of a curve, as coordinates.
 fn ends(mesh: &Mesh, name: &str) -> Vec<[[f64; 2]; 2]> {
-    edges(mesh, name)
-        .iter()
-        .map(|edge| [mesh.points[edge.nodes()[0]], mesh.points[edge.nodes()[1]]])
-        .collect()
+    edges(mesh, name).iter().map(|edge| [0, 1].map(|end| in_plane(mesh.points[edge.nodes()[end]]))).collect()
 }
 
 const BOTTOM: [[[f64; 2]; 2]; 2] = [[[0.0, 0.0], [1.0, 0.0]], [[1.0, 0.0], [2.0, 0.0]]];
@@ -53,7 +51,7 @@ fn the_strip_is_read_in_every_encoding() {
         close(area(&mesh), 2.0);
         assert_eq!(ends(&mesh, "bottom"), BOTTOM);
         assert!(
-            matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0, 0.0])
+            matches!(&mesh.groups["corner"], Group::Points(points) if mesh.points[points[0]] == [0.0; 3])
         );
         assert!(matches!(&mesh.groups["body"], Group::Cells(cells) if *cells == [0, 1, 2]));
         let edges = edges(&mesh, "bottom");
@@ -106,7 +104,7 @@ fn quadratic_cells_keep_their_mid_nodes_when_turned() {
     let mesh = read(&text);
     close(area(&mesh), 0.5);
     let edges = edges(&mesh, "5");
-    let places: Vec<[f64; 2]> = edges[0].nodes().iter().map(|&node| mesh.points[node]).collect();
+    let places: Vec<[f64; 2]> = edges[0].nodes().iter().map(|&node| in_plane(mesh.points[node])).collect();
     assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]]);
 }
 

@@ -76,7 +76,10 @@ fn a_constant_stress_passes_any_two_meshes() {
                 let snapshot = &states[0].snapshot;
                 let case = format!("{shape:?} {a}:{b} {coupling}");
                 for (subdomain, (stress, _, exact)) in sides.iter().enumerate() {
-                    for (node, &x) in problem.model.subdomains[subdomain].mesh.points.iter().enumerate() {
+                    for (node, &[x, y, _]) in
+                        problem.model.subdomains[subdomain].mesh.points.iter().enumerate()
+                    {
+                        let x = [x, y];
                         let u = displacement(&problem, &states[0], subdomain, node);
                         for d in 0..2 {
                             close(u[d], exact(x)[d], 1e-10, 1e-3, &case);

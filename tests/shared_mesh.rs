@@ -29,7 +29,7 @@ fn strip(shape: Shape) -> Mesh {
     let (west, east): (Vec<usize>, Vec<usize>) = (0..mesh.cells.len()).partition(|&c| x(c) < 1.0);
     let middle = mesh.part(&west).unwrap().boundary().unwrap();
     // the boundary of the western part, in numbers of the whole
-    let number = |p: [f64; 2]| mesh.points.iter().position(|q| *q == p).unwrap();
+    let number = |p: [f64; 3]| mesh.points.iter().position(|q| *q == p).unwrap();
     let part = mesh.part(&west).unwrap();
     let middle =
         middle.into_iter().filter(|edge| edge.nodes().iter().all(|&node| part.points[node][0] == 1.0));
@@ -58,7 +58,7 @@ fn a_part_has_its_own_nodes_and_its_own_side_of_a_common_curve() {
             let middle = edges(&part, "middle");
             assert_eq!(middle.len(), 3);
             for edge in middle {
-                let places: Vec<[f64; 2]> = edge.nodes().iter().map(|&node| part.points[node]).collect();
+                let places: Vec<[f64; 3]> = edge.nodes().iter().map(|&node| part.points[node]).collect();
                 let [start, end] = [places[0], places[1]];
                 assert!(edge.boundary && places.iter().all(|place| place[0] == 1.0));
                 // with the body on the left the eastern boundary runs up and the western one down

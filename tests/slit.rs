@@ -60,7 +60,7 @@ fn b28_a_slit_closed_by_a_stiff_interface_is_none() {
                 let good = (t[0] + P).abs() < (off + limit) * P && t[1].abs() < limit * P;
                 assert!(good || inside != [8, 8], "{k:e}: {t:?} at {}", p.s);
             }
-            for (i, [_, y]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
+            for (i, [_, y, _]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, 0, i);
                 close(u[1], -P * (y + 0.5) / E, limit, P / E, "u_y");
                 close(u[0], 0.0, limit, P / E, "u_x");
@@ -78,7 +78,7 @@ fn b28_a_slit_along_the_pressure_carries_nothing() {
         for k in [1e3, 1e8] {
             let (problem, state) = solved(inside, k, supports, loads);
             assert!(state.snapshot.tractions[0].as_flattened().iter().all(|t| t.abs() < 1e-8 * P));
-            for (i, [x, _]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
+            for (i, [x, _, _]) in problem.model.subdomains[0].mesh.points.iter().enumerate() {
                 let u = displacement(&problem, &state, 0, i);
                 close(u[0], -P * x / E, 1e-11, P / E, "u_x");
                 close(u[1], 0.0, 1e-11, P / E, "u_y");

@@ -91,7 +91,8 @@ fn patch(
     let (mut wrong, mut largest) = ([0.0_f64; 2], 0.0_f64);
     for subdomain in 0..2 {
         for (node, &x) in problem.model.subdomains[subdomain].mesh.points.iter().enumerate() {
-            let (u, exact) = (displacement(&problem, &states[0], subdomain, node), exact(subdomain, x));
+            let (u, exact) =
+                (displacement(&problem, &states[0], subdomain, node), exact(subdomain, [x[0], x[1]]));
             wrong[0] = wrong[0].max((u[0] - exact[0]).abs()).max((u[1] - exact[1]).abs());
             largest = largest.max(exact[0].abs()).max(exact[1].abs());
         }

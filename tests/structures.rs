@@ -31,7 +31,7 @@ fn block([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], [nx, ny]: [usize; 2]) -> Mesh {
 
 /// Adds a group of the point at a place.
 fn name_point(mesh: &mut Mesh, name: &str, at: [f64; 2]) {
-    let there = |p: &[f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]) < 1e-9;
+    let there = |p: &[f64; 3]| (p[0] - at[0]).hypot(p[1] - at[1]) < 1e-9;
     let point = mesh.points.iter().position(there).unwrap();
     mesh.groups.insert(name.into(), Group::Points(vec![point]));
 }

@@ -17,7 +17,7 @@ fn layer(nx: usize, ny: usize, y: f64) -> Mesh {
     let mut mesh = Mesh { file: "layer.msh".into(), ..Mesh::default() };
     for j in 0..=ny {
         let y = y + 0.5 * j as f64 / ny as f64;
-        mesh.points.extend((0..=nx).map(|i| [2.0 * i as f64 / nx as f64, y]));
+        mesh.points.extend((0..=nx).map(|i| [2.0 * i as f64 / nx as f64, y, 0.0]));
     }
     let mut cells = Cells::default();
     for j in 0..ny {

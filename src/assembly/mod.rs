@@ -82,7 +82,7 @@ impl Model {
 
     /// Coordinates of all nodes, one node after the other [length].
     pub fn coordinates(&self) -> Vec<f64> {
-        self.subdomains.iter().flat_map(|subdomain| subdomain.mesh.points.as_flattened()).copied().collect()
+        self.subdomains.iter().flat_map(|subdomain| subdomain.coordinates(self.components)).collect()
     }
 
     /// The pattern of the bodies alone: a block for each.
@@ -125,6 +125,11 @@ impl BoundSubdomain {
     /// First node and nodes of every cell.
     fn cells(&self, first_node: usize) -> impl Iterator<Item = (usize, &[usize])> + Clone {
         (0..self.mesh.cells.len()).map(move |c| (first_node, self.mesh.cells.nodes(c)))
+    }
+
+    /// Coordinates of its nodes, one node after the other, `components` of each [length].
+    pub fn coordinates(&self, components: usize) -> impl Iterator<Item = f64> {
+        self.mesh.points.iter().flat_map(move |x| x[..components].iter().copied())
     }
 
     /// The pattern of this body alone, its nodes numbered from 0.

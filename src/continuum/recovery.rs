@@ -148,6 +148,7 @@ mod tests {
     use super::*;
     use crate::continuum::PlaneState;
     use crate::mesh::Cells;
+    use crate::shape::vector::in_space;
 
     /// One cell with an affine image of the reference nodes and a displacement field at them.
     fn one_cell(shape: Shape, field: impl Fn(f64, f64) -> [f64; 2]) -> (Mesh, Vec<f64>) {
@@ -156,6 +157,7 @@ mod tests {
         let mut cells = Cells::default();
         cells.push(shape, &(0..shape.nodes()).collect::<Vec<_>>());
         let u = points.iter().flat_map(|p| field(p[0], p[1])).collect();
+        let points = points.into_iter().map(in_space).collect();
         (Mesh { points, cells, ..Mesh::default() }, u)
     }
 

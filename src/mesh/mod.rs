@@ -41,8 +41,8 @@ use crate::shape::Shape;
 pub struct Mesh {
     /// The `.msh` file it came from, for messages.
     pub file: PathBuf,
-    /// Coordinates x, y [length].
-    pub points: Vec<[f64; 2]>,
+    /// Coordinates [length]; z is exactly zero in the plane.
+    pub points: Vec<[f64; 3]>,
     /// The cells that fill the body.
     pub cells: Cells,
     /// Points that lie on points of the geometry, ascending; empty if the file does not tell.

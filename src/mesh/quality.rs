@@ -9,13 +9,14 @@
 //! mid-nodes do not enter.
 
 use super::Mesh;
+use crate::shape::vector::in_plane;
 
 impl Mesh {
     /// Scaled Jacobian of a cell: 1 for a rectangle or an equilateral triangle, 0 for a flat corner.
     pub fn quality(&self, cell: usize) -> f64 {
         let corners = self.cells.shapes[cell].corners();
         let x: Vec<[f64; 2]> =
-            self.cells.nodes(cell)[..corners].iter().map(|&node| self.points[node]).collect();
+            self.cells.nodes(cell)[..corners].iter().map(|&node| in_plane(self.points[node])).collect();
         let at = |i: usize| {
             let edge = |j: usize| [x[j][0] - x[i][0], x[j][1] - x[i][1]];
             let (a, b) = (edge((i + 1) % corners), edge((i + corners - 1) % corners));
@@ -30,12 +31,14 @@ impl Mesh {
 mod tests {
     use crate::mesh::{Cells, Mesh};
     use crate::shape::Shape;
+    use crate::shape::vector::in_space;
 
     fn quality(points: &[[f64; 2]]) -> f64 {
         let mut cells = Cells::default();
         let shape = if points.len() == 3 { Shape::Triangle3 } else { Shape::Quadrilateral4 };
         cells.push(shape, &(0..points.len()).collect::<Vec<_>>());
-        Mesh { points: points.to_vec(), cells, ..Mesh::default() }.quality(0)
+        let points = points.iter().map(|&x| in_space(x)).collect();
+        Mesh { points, cells, ..Mesh::default() }.quality(0)
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::groups::{UNUSED, gather};
 use super::msh::{self, Content, MeshFault};
 use super::{Cells, Mesh};
 use crate::error::{Error, Result};
+use crate::shape::vector::in_space;
 
 /// |z| up to this part of the mesh's extent counts as zero.
 const ON_PLANE: f64 = 1e-9;
@@ -59,7 +60,13 @@ fn build(path: &Path, mut content: Content) -> std::result::Result<Mesh, MeshFau
     let kept = content.corners.iter().map(|&node| numbers[node as usize]).filter(|&number| number != UNUSED);
     let mut corners: Vec<usize> = kept.map(|number| number as usize).collect();
     corners.sort_unstable();
-    Ok(Mesh { file: path.to_path_buf(), points: content.points, cells, corners, groups })
+    Ok(Mesh {
+        file: path.to_path_buf(),
+        points: content.points.into_iter().map(in_space).collect(),
+        cells,
+        corners,
+        groups,
+    })
 }
 
 /// Refuses nodes off the plane z = 0.

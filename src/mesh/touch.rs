@@ -14,7 +14,7 @@ use rstar::{AABB, Envelope, RTree, RTreeObject};
 
 use super::{Facet, Mesh};
 use crate::error::Result;
-use crate::shape::vector::{dot, minus};
+use crate::shape::vector::{dot, in_plane, minus};
 
 /// Touching edges may be this far apart, and more where the boundary turns. Of their length.
 const NEAR: f64 = 1e-3;
@@ -183,7 +183,7 @@ fn lines(subdomain: usize, mesh: &Mesh) -> Result<Vec<BoundaryLine>> {
 
 impl BoundaryLine {
     fn new(subdomain: usize, mesh: &Mesh, edge: Facet) -> BoundaryLine {
-        let ends = [0, 1].map(|i| mesh.points[edge.nodes()[i]]);
+        let ends = [0, 1].map(|i| in_plane(mesh.points[edge.nodes()[i]]));
         let along = minus(ends[1], ends[0]);
         let length = along[0].hypot(along[1]);
         BoundaryLine {

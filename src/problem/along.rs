@@ -8,7 +8,7 @@ use crate::shape::{GAUSS_3, lagrange3};
 const SAME: f64 = 1e-9;
 
 /// s at start and end of every edge, in the order of the edges; for a group that is no open line, what it is.
-pub(super) fn fractions(points: &[[f64; 2]], edges: &[Facet]) -> Result<Vec<[f64; 2]>, String> {
+pub(super) fn fractions(points: &[[f64; 3]], edges: &[Facet]) -> Result<Vec<[f64; 2]>, String> {
     let mut by_node: Vec<(usize, usize)> = Vec::new(); // node, edge
     for (e, edge) in edges.iter().enumerate() {
         by_node.extend([(edge.nodes()[0], e), (edge.nodes()[1], e)]);
@@ -86,6 +86,7 @@ fn arc(x: &[[f64; 2]; 3], from: f64, to: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::vector::in_space;
 
     fn edge(start: usize, end: usize, mid: usize) -> Facet {
         let nodes = [start, end, mid];
@@ -94,7 +95,7 @@ mod tests {
 
     #[test]
     fn s_grows_from_the_smaller_x_whatever_the_order_and_direction_of_the_edges() {
-        let points = [[3.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 4.0], [1.0, 1.0]];
+        let points = [[3.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 4.0], [1.0, 1.0]].map(in_space);
         let edges = [edge(0, 1, 1), edge(1, 2, 2)];
         assert_eq!(fractions(&points, &edges).unwrap(), [[1.0, 1.0 / 3.0], [1.0 / 3.0, 0.0]]);
         let upright = [edge(3, 4, 4), edge(1, 4, 4)]; // the same x: the smaller y comes first
@@ -103,7 +104,7 @@ mod tests {
 
     #[test]
     fn s_follows_the_arc_of_a_curved_edge() {
-        let points = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.5]];
+        let points = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.5]].map(in_space);
         let x = edge_coordinates(&points, &edge(0, 1, 2));
         assert!(
             (at([0.0, 1.0], &x, true, 0.0) - 0.5).abs() < 1e-15,
@@ -115,7 +116,7 @@ mod tests {
 
     #[test]
     fn what_is_no_open_line_says_so() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 0.0]];
+        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 0.0]].map(in_space);
         for (edges, expected) in [
             (vec![edge(0, 1, 1), edge(1, 2, 2), edge(2, 0, 0)], "closed loop"),
             (vec![edge(0, 1, 1), edge(3, 4, 4)], "2 pieces"),

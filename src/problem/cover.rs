@@ -33,7 +33,7 @@ pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -
             let (first, second) = (one.interface.min(two.interface), one.interface.max(two.interface));
             let subdomain = &model.subdomains
                 [model.subdomains.partition_point(|subdomain| subdomain.first_node <= nodes[0]) - 1];
-            let [x, y] = subdomain.mesh.points[nodes[0] - subdomain.first_node];
+            let [x, y, _] = subdomain.mesh.points[nodes[0] - subdomain.first_node];
             let name = |interface: usize| &plans[interface].name;
             let what =
                 format!("{} and {} both join {} at ({x}, {y})", name(first), name(second), subdomain.name);

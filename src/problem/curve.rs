@@ -84,7 +84,7 @@ pub(super) fn side(
         let (subdomain, edges) = groups::curve(scene, model, &path, group)?;
         for edge in edges {
             if let Some(other) = owner.insert((subdomain, edge.nodes()[0], edge.nodes()[1]), group) {
-                let [x, y] = model.subdomains[subdomain].mesh.points[edge.nodes()[0]];
+                let [x, y, _] = model.subdomains[subdomain].mesh.points[edge.nodes()[0]];
                 let what = format!("\"{other}\" and \"{group}\" hold the same edge, at ({x}, {y})");
                 return Err(scene.source.error_at(&path, what, "name every edge of a side once"));
             }

@@ -166,7 +166,7 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
 }
 
 /// Coordinates of start, end and mid-node of an edge, relative to its start; the end again where it has none.
-pub(super) fn edge_coordinates(points: &[[f64; 2]], edge: &Facet) -> [[f64; 2]; 3] {
+pub(super) fn edge_coordinates(points: &[[f64; 3]], edge: &Facet) -> [[f64; 2]; 3] {
     let origin = points[edge.nodes()[0]];
     let at = |node: usize| [points[node][0] - origin[0], points[node][1] - origin[1]];
     let nodes = edge.nodes();

@@ -7,6 +7,7 @@ use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_fi
 use crate::error::{Error, Result};
 use crate::mesh::Facet;
 use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
+use crate::shape::vector::{in_plane, plus};
 
 /// A load in force.
 #[derive(Debug, Clone)]
@@ -137,7 +138,7 @@ impl BoundLoad {
                         let (traction, pressure) = split(constant);
                         edge_force(&x, quadratic, traction, pressure, model.thickness)
                     } else {
-                        let origin = subdomain.mesh.points[edge.nodes()[0]];
+                        let origin = in_plane(subdomain.mesh.points[edge.nodes()[0]]);
                         edge_field_force(&x, quadratic, model.thickness, |xi, place| {
                             let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, quadratic, xi));
                             Ok::<_, Error>(split(at(plus(origin, place), s)?))
@@ -151,7 +152,7 @@ impl BoundLoad {
             LoadTarget::Points { subdomain, points } => {
                 let subdomain = &model.subdomains[*subdomain];
                 for &point in points {
-                    scatter(subdomain.first_node + point, at(subdomain.mesh.points[point], 0.0)?);
+                    scatter(subdomain.first_node + point, at(in_plane(subdomain.mesh.points[point]), 0.0)?);
                 }
             }
             LoadTarget::BoundSubdomain { subdomain, factor } => {
@@ -171,7 +172,7 @@ impl BoundLoad {
                             );
                         }
                     } else {
-                        let origin = mesh.points[nodes[0]];
+                        let origin = in_plane(mesh.points[nodes[0]]);
                         let nodal = cell_field_force(shape, &x, |place| at(plus(origin, place), 0.0))?;
                         for (&node, nodal) in nodes.iter().zip(nodal) {
                             scatter(subdomain.first_node + node, nodal.map(|nodal| factor * nodal));
@@ -182,8 +183,4 @@ impl BoundLoad {
         }
         Ok(())
     }
-}
-
-fn plus(p: [f64; 2], q: [f64; 2]) -> [f64; 2] {
-    [p[0] + q[0], p[1] + q[1]]
 }

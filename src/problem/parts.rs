@@ -29,7 +29,7 @@ pub fn subdomain_meshes(
         for &cell in of_surface {
             let before = std::mem::replace(&mut owner[file_of[number]][cell], number);
             if before != usize::MAX {
-                let [x, y] = mesh.points[mesh.cells.nodes(cell)[0]];
+                let [x, y, _] = mesh.points[mesh.cells.nodes(cell)[0]];
                 let other = &scene.subdomains[before].surface;
                 let other = other.as_deref().unwrap_or_default();
                 let what = format!("\"{surface}\" and \"{other}\" share cells, near ({x}, {y})");

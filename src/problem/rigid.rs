@@ -33,7 +33,7 @@ pub fn is_constrained(model: &Model, subdomain: usize, constrained: &[bool]) -> 
     let mut gram = DMatrix::<f64>::zeros(3, 3);
     let count = of.mesh.points.len() as f64;
     let centre = [0, 1].map(|d| of.mesh.points.iter().map(|x| x[d]).sum::<f64>() / count);
-    let reach = |x: &[f64; 2]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
+    let reach = |x: &[f64; 3]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
     let size = of.mesh.points.iter().map(reach).fold(0.0, f64::max);
     for (node, x) in of.mesh.points.iter().enumerate() {
         let turn = [-(x[1] - centre[1]) / size, (x[0] - centre[0]) / size];

@@ -9,6 +9,7 @@ use super::curve::PlannedInterface;
 use crate::assembly::{BoundSubdomain, Model};
 use crate::error::{Code, Result, Warning};
 use crate::mesh::{Facet, Mesh, Pieces, Touch, coinciding};
+use crate::shape::vector::in_plane;
 
 /// Boundaries that lie on each other along less only meet at a point. Of the shortest edge there.
 const MEETING: f64 = 1e-2;
@@ -100,7 +101,7 @@ impl Connectivity {
         let places: Vec<String> = hinges
             .iter()
             .take(NAMED)
-            .map(|(node, _)| near(subdomain, subdomain.mesh.points[*node]))
+            .map(|(node, _)| near(subdomain, in_plane(subdomain.mesh.points[*node])))
             .collect();
         let mut text = format!("{} falls into {count} pieces that share ", subdomain.name);
         match hinges.len() {

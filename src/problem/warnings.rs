@@ -57,7 +57,7 @@ pub(super) fn of_interface(
             .filter(|(quality, _)| *quality < BAD)
             .collect();
         if let Some((worst, cell)) = bad.iter().min_by(|p, q| p.0.total_cmp(&q.0)) {
-            let [x, y] = subdomain.mesh.points[subdomain.mesh.cells.nodes(*cell)[0]];
+            let [x, y, _] = subdomain.mesh.points[subdomain.mesh.cells.nodes(*cell)[0]];
             let what = format!(
                 "interface {name}: {} of {} cells of {} beside it have a scaled Jacobian below {BAD}, the worst {worst:.2} near ({x:.4}, {y:.4})",
                 bad.len(),

@@ -110,7 +110,7 @@ pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balanc
             let dofs = model.dofs_of(b);
             let (force, reactions) = (&force[dofs.clone()], &reactions[dofs]);
             let moment = |values: &[f64]| {
-                let of = |(x, f): (&[f64; 2], &[f64])| x[0] * f[1] - x[1] * f[0];
+                let of = |(x, f): (&[f64; 3], &[f64])| x[0] * f[1] - x[1] * f[0];
                 subdomain.mesh.points.iter().zip(values.chunks_exact(model.components)).map(of).sum::<f64>()
             };
             let moment = [moment(force), moment(reactions)];

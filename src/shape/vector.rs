@@ -30,3 +30,8 @@ pub fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
 pub fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
     [x, y, 0.0]
 }
+
+/// The components in the plane of a vector in space.
+pub fn in_plane([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
+}

@@ -46,7 +46,8 @@ impl Substructure {
     ) -> Result<Substructure, TooLarge> {
         let pattern = subdomain.pattern(components);
         let stiffness = subdomain.stiffness(&pattern, thickness);
-        let order = nested_dissection(&pattern, subdomain.mesh.points.as_flattened());
+        let coordinates: Vec<f64> = subdomain.coordinates(components).collect();
+        let order = nested_dissection(&pattern, &coordinates);
         let parts = Parts::new(&pattern, Cut::along_interfaces(&pattern, &order, joined))?;
         Ok(Substructure { pattern, stiffness, parts, kept: Mutex::default() })
     }

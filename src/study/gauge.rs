@@ -12,6 +12,7 @@ use crate::history::{ModelState, Totals};
 use crate::output::HistoryRow;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::{FormulaPlace, Value};
+use crate::shape::vector::in_plane;
 use crate::shape::{determinant, jacobian};
 
 /// Takes the measures of one run.
@@ -128,7 +129,7 @@ fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Optio
                     moved[d] += values.n[i] * u[model.components * node + d];
                 }
             }
-            let x: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.points[node]).collect();
+            let x: Vec<[f64; 2]> = nodes.iter().map(|&node| in_plane(mesh.points[node])).collect();
             let area = weight * determinant(&jacobian(&values, &x));
             let place = FormulaPlace { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
             add(&mut sums, area, moved, exact, &place);

@@ -5,11 +5,12 @@
 use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side};
 use midplane::error::Result;
 use midplane::mesh::Facet;
+use midplane::shape::vector::{in_plane, in_space};
 
 /// Points and edges of a mesh's curve.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    pub points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 3]>,
     pub edges: Vec<Facet>,
     pub corners: Vec<usize>,
 }
@@ -26,7 +27,7 @@ impl Curve {
     ) -> Curve {
         let n = t.len() - 1;
         let ends = if closed { n } else { n + 1 };
-        let mut points: Vec<[f64; 2]> = t[..ends].iter().map(|&t| at(t)).collect();
+        let mut points: Vec<[f64; 3]> = t[..ends].iter().map(|&t| in_space(at(t))).collect();
         let mut edges = Vec::new();
         for i in 0..n {
             let (mut start, mut end) = (i, (i + 1) % ends);
@@ -34,7 +35,7 @@ impl Curve {
                 (start, end) = (end, start);
             }
             let mid = if quadratic {
-                points.push(at(0.5 * (t[i] + t[i + 1])));
+                points.push(in_space(at(0.5 * (t[i] + t[i + 1]))));
                 points.len() - 1
             } else {
                 end
@@ -74,7 +75,7 @@ impl Curve {
     }
 
     pub fn moved(&self, to: &dyn Fn([f64; 2]) -> [f64; 2]) -> Curve {
-        Curve { points: self.points.iter().map(|&p| to(p)).collect(), ..self.clone() }
+        Curve { points: self.points.iter().map(|&p| in_space(to(in_plane(p)))).collect(), ..self.clone() }
     }
 }
 

@@ -6,6 +6,7 @@ use midplane::history::{Clock, Equations, History, Increment, Means, ModelState,
 use midplane::mesh::{Cells, Facet, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
+use midplane::shape::vector::in_space;
 
 /// n + 1 equally spaced places from `start` to `end`.
 pub fn even(start: f64, end: f64, n: usize) -> Vec<f64> {
@@ -41,7 +42,7 @@ fn quadratic(mesh: Mesh, shape: Shape) -> Mesh {
     let mut mid = |a: usize, b: usize| {
         *mids.entry((a.min(b), a.max(b))).or_insert_with(|| {
             let (p, q) = (points[a], points[b]);
-            points.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
+            points.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.0]);
             points.len() - 1
         })
     };
@@ -71,7 +72,7 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
     let node = |i: usize, j: usize| j * (nx + 1) + i;
     let mut points = Vec::new();
     for &y in ys {
-        points.extend(xs.iter().map(|&x| place(x, y)));
+        points.extend(xs.iter().map(|&x| in_space(place(x, y))));
     }
     let mut cells = Cells::default();
     for j in 0..ny {

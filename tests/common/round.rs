@@ -7,13 +7,14 @@ use std::f64::consts::PI;
 
 use midplane::mesh::{Group, Mesh};
 use midplane::shape::Shape;
+use midplane::shape::vector::in_space;
 
 use super::common::{even, rectangle};
 
 /// A rectangle whose nodes, mid-nodes included, are put in place one by one.
 pub fn bent(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {
     let mut mesh = rectangle(xs, ys, shape, |x, y| [x, y]);
-    mesh.points.iter_mut().for_each(|p| *p = place(p[0], p[1]));
+    mesh.points.iter_mut().for_each(|p| *p = in_space(place(p[0], p[1])));
     mesh
 }
 
@@ -38,7 +39,7 @@ pub fn ring(n: usize, radii: &[f64], shape: Shape, from: f64) -> Mesh {
     for (i, p) in mesh.points.iter().enumerate().filter(|(i, _)| !twin.contains_key(i)) {
         number[i] = points.len();
         let angle = from - 2.0 * PI * p[0];
-        points.push([p[1] * angle.cos(), p[1] * angle.sin()]);
+        points.push([p[1] * angle.cos(), p[1] * angle.sin(), 0.0]);
     }
     for (i, j) in &twin {
         number[*i] = number[*j];

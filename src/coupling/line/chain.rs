@@ -177,9 +177,9 @@ mod tests {
     use super::*;
     use crate::mesh::Facet;
 
-    const POINTS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]];
+    const POINTS: [[f64; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
 
-    fn order(points: &[[f64; 2]], edges: &[Facet], subdomain: Orientation) -> Result<Chain> {
+    fn order(points: &[[f64; 3]], edges: &[Facet], subdomain: Orientation) -> Result<Chain> {
         let side = Side { name: "lower.top", points, edges, corners: &[], first: 0 };
         Chain::order("joint", &[side], subdomain, [0.0; 2])
     }
@@ -203,7 +203,7 @@ mod tests {
 
     #[test]
     fn mid_nodes_stay_with_their_edges_when_the_chain_is_turned() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.5, 0.0], [1.5, 0.0]];
+        let points = [0.0, 1.0, 2.0, 0.5, 1.5].map(|x| [x, 0.0, 0.0]);
         let quadratic = |nodes: [usize; 3]| Facet::edge(&nodes, 0, true);
         let edges = [quadratic([1, 2, 4]), quadratic([0, 1, 3])];
         for subdomain in [Orientation::Left, Orientation::Right] {

@@ -10,7 +10,7 @@ pub struct Side<'a> {
     /// Its name in messages, such as `lower.top`.
     pub name: &'a str,
     /// Coordinates of its mesh.
-    pub points: &'a [[f64; 2]],
+    pub points: &'a [[f64; 3]],
     /// The edges in any order.
     pub edges: &'a [Facet],
     /// Nodes that lie on points of the geometry, ascending: where a side may be kinked. Empty if the mesh does not know.
@@ -66,7 +66,7 @@ pub(in crate::coupling) fn sorted(
     let mut links = Vec::with_capacity(curves.iter().map(|curve| curve.edges.len()).sum());
     for curve in curves {
         for edge in curve.edges {
-            let [x, y] = curve.points[edge.nodes()[0]];
+            let [x, y, _] = curve.points[edge.nodes()[0]];
             if !edge.boundary {
                 let what = format!("{} has an edge inside its body, near ({x}, {y})", curve.name);
                 return Err(error_at(what, "a side lies on the boundary of its subdomain"));

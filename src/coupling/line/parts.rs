@@ -27,7 +27,7 @@ const ROUNDING: f64 = 4.0;
 /// The mid-plane of two sides: orders their edges, finds what faces what, and cuts C. `name` is the interface's, for messages.
 pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<LineMidplane> {
     let sides = [side_a, side_b];
-    let edge = side_a.iter().find_map(|curve| Some(curve.points[curve.edges.first()?.nodes()[0]]));
+    let edge = side_a.iter().find_map(|curve| Some(in_plane(curve.points[curve.edges.first()?.nodes()[0]])));
     let origin = edge.unwrap_or_default();
     let order = |side: &[Side], subdomain: Orientation| {
         let chain = Chain::order(name, side, subdomain, origin)?;
