@@ -114,7 +114,7 @@ test: | tools     ## all tests, in release, so that dependencies compile once
 identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `before` and with this one, compare bit by bit
 	rm -rf $(TARGET)/before && git worktree prune && git worktree add --force --detach $(TARGET)/before $(before)
 	cargo build --release --locked --manifest-path $(TARGET)/before/Cargo.toml --target-dir $(TARGET)/before/target
-	$(PYTHON) tests/identical.py $(TARGET)/before/target/release/midplane $(MIDPLANE) --forms "as it is" blocks plain
+	$(PYTHON) tests/identical.py $(TARGET)/before/target/release/midplane $(MIDPLANE)
 
 confinement: | tools  ## the long tests: boxes at every confinement on fine meshes, and 200 random ones, some minutes
 	cargo test --release --locked --test confinement -- --ignored --nocapture
