@@ -11,7 +11,7 @@ fn every_code_has_its_section_with_reason_and_help() {
     for (i, (code, section)) in Code::ALL.iter().zip(&sections).enumerate() {
         assert_eq!(*code as usize, i, "{code:?} stands at its place");
         assert!(section.starts_with(&format!("{code}: ")), "{code} has no section: {section}");
-        for part in ["\n**Why.** ", "\n**Cure.** "] {
+        for part in ["\n**Why.** ", "\n**Help.** "] {
             assert!(section.contains(part), "{code}: no {part:?}");
         }
     }

@@ -71,7 +71,7 @@ pub(super) struct Reached {
     pub(super) last: bool,
     /// There is an equilibrium beyond the one before.
     pub(super) moved: bool,
-    /// Why there is none at the increment's end.
+    /// Reason for none at the increment's end.
     pub(super) lost: Option<Unconverged>,
 }
 

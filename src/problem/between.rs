@@ -17,10 +17,10 @@ use crate::scene::{Interface, JOINED, Scene};
 /// An interface and the side of it.
 type InterfaceSide = (usize, usize);
 
-/// Edges that interfaces with named sides join already: of every edge (body, nodes) the interfaces, and the side it is on.
+/// Edges that interfaces with named sides join already: of every edge (body, ends) the interfaces, and the side it is on.
 #[derive(Default)]
 pub(super) struct JoinedEdges {
-    edges: HashMap<(usize, Vec<usize>), Vec<InterfaceSide>>,
+    edges: HashMap<(usize, [usize; 2]), Vec<InterfaceSide>>,
     interfaces: usize,
 }
 
@@ -31,10 +31,7 @@ impl JoinedEdges {
             for (curve, edge) in
                 curves.iter().flat_map(|curve| curve.edges.iter().map(move |edge| (curve, edge)))
             {
-                self.edges
-                    .entry((curve.subdomain, edge.nodes().to_vec()))
-                    .or_default()
-                    .push((self.interfaces, side));
+                self.edges.entry((curve.subdomain, ends(edge))).or_default().push((self.interfaces, side));
             }
         }
         self.interfaces += 1;
@@ -42,9 +39,7 @@ impl JoinedEdges {
 
     /// True if one interface has both edges, on different sides.
     pub(super) fn both(&self, subdomains: [usize; 2], edges: [&Facet; 2]) -> bool {
-        let of = |i: usize| {
-            self.edges.get(&(subdomains[i], edges[i].nodes().to_vec())).map_or(&[][..], Vec::as_slice)
-        };
+        let of = |i: usize| self.edges.get(&(subdomains[i], ends(edges[i]))).map_or(&[][..], Vec::as_slice);
         of(0).iter().any(|one| of(1).iter().any(|two| one.0 == two.0 && one.1 != two.1))
     }
 }
@@ -92,4 +87,9 @@ pub(super) fn pairs<'a>(
 
 fn fit(patterns: &[String; 2], name: &str) -> [bool; 2] {
     [0, 1].map(|i| WildMatch::new(&patterns[i]).matches(name))
+}
+
+/// Start and end of an edge: no other of its body has both, in this order.
+fn ends(edge: &Facet) -> [usize; 2] {
+    [edge.nodes()[0], edge.nodes()[1]]
 }

@@ -29,7 +29,7 @@ pub enum Variable {
     LoadFactor,
 }
 
-/// Why a text is no expression, and where.
+/// Fault of a text that is no expression, with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FormulaFault {
     /// Bytes of the text that are wrong.

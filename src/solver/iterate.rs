@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// When Newton ends, and with which tangent it goes.
+/// Tolerance, limits and tangent of Newton's method.
 #[derive(Debug, Clone, Copy)]
 pub struct NewtonSettings {
     /// Largest relative residual of a solution.
@@ -34,7 +34,7 @@ pub struct Iterate<M> {
     pub residuals: Vec<f64>,
 }
 
-/// Why Newton ended without equilibrium.
+/// Reason for the end of Newton's method without equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Unconverged {
     /// In words.

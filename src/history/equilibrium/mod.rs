@@ -21,7 +21,7 @@ use super::loading::StepLoad;
 use super::state::ModelState;
 use crate::solver::{LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp, Unconverged};
 
-/// Why an increment has no equilibrium.
+/// Failure of the search for the equilibrium of an increment.
 #[derive(Debug)]
 pub(in crate::history) enum Failure {
     /// A smaller increment may have one.

@@ -61,7 +61,7 @@ pub(super) fn return_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> (M
     }
 }
 
-/// Which mode the return at a fixed W belongs to; G is multiplied by τ_y(0), so nothing is divided.
+/// Mode of the return at a fixed W; G is multiplied by τ_y(0), so nothing is divided.
 pub(super) fn mode_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> Mode {
     if trial.tau == 0.0 {
         return if now.chi > 0.0 { Mode::Tension } else { Mode::Open };
