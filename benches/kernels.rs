@@ -8,11 +8,10 @@ use std::sync::Arc;
 use divan::{Bencher, black_box};
 use midplane::assembly::{InterfaceTangent, add_stiffness};
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
-use midplane::law::{Integration, State};
+use midplane::law::{Integration, Local, State};
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
 use midplane::solver::{Base, Condensation, Condensed, Continuum, FactorPlan, Form};
-use nalgebra::Vector2;
 
 mod layers;
 use layers::layers;
@@ -82,7 +81,7 @@ fn law_points(problem: &Problem, tractions: &mut Vec<f64>, stiffness: &mut Vec<f
     let points = problem.model.interfaces[0].coupling.points.len();
     for p in 0..points {
         let slip = 2e-6 * p as f64 / points as f64; // half of them slide
-        let jump = black_box(Vector2::new(-1e-6, slip));
+        let jump = black_box(Local::new(-1e-6, slip, 0.0));
         let answer = law.respond(jump, &State::default(), Integration::Tolerance(1e-4));
         let answer = answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"));
         tractions.extend_from_slice(answer.traction.as_slice());

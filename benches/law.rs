@@ -2,8 +2,7 @@
 #![allow(missing_docs)]
 
 use divan::{Bencher, black_box};
-use midplane::law::{Cracking, Elastic, Integration, Law, Response, State};
-use nalgebra::Vector2;
+use midplane::law::{Cracking, Elastic, Integration, Law, Local, Response, State, local};
 
 fn main() {
     divan::main();
@@ -28,7 +27,7 @@ const LAW: Cracking = Cracking {
 };
 
 fn respond(law: Cracking, jump: [f64; 2], old: &State, integration: Integration) -> Response {
-    let answer = Law::Cracking(law).respond(Vector2::from(black_box(jump)), black_box(old), integration);
+    let answer = Law::Cracking(law).respond(local(&black_box(jump)), black_box(old), integration);
     answer.unwrap_or_else(|unresolved| unreachable!("{unresolved}"))
 }
 
@@ -40,14 +39,14 @@ fn opened() -> State {
 fn elastic_law(bencher: Bencher) {
     let springs = Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 };
     bencher
-        .bench_local(|| black_box(springs).traction(black_box(Vector2::new(1e-6, 2e-6)), Vector2::zeros()));
+        .bench_local(|| black_box(springs).traction(black_box(Local::new(1e-6, 2e-6, 0.0)), Local::zeros()));
 }
 
 #[divan::bench]
 fn elastic_law_full_answer(bencher: Bencher) {
     let springs = Law::Elastic(Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 });
     let old = State::default();
-    let jump = Vector2::new(1e-6, 2e-6);
+    let jump = Local::new(1e-6, 2e-6, 0.0);
     bencher.bench_local(|| springs.respond(black_box(jump), black_box(&old), Integration::Tolerance(1e-4)));
 }
 
@@ -72,13 +71,13 @@ fn cracking_compression_newton(bencher: Bencher) {
 #[divan::bench]
 fn cracking_tension_fallback(bencher: Bencher) {
     let old = opened();
-    bencher.bench_local(|| LAW.respond_nested(black_box(Vector2::new(2.1e-5, 1.05e-5)), black_box(&old)));
+    bencher.bench_local(|| LAW.respond_nested(black_box(Local::new(2.1e-5, 1.05e-5, 0.0)), black_box(&old)));
 }
 
 #[divan::bench]
 fn cracking_compression_fallback(bencher: Bencher) {
     let old = respond(LAW, [-5e-7, 2e-5], &State::default(), Integration::Tolerance(1e-6)).state;
-    bencher.bench_local(|| LAW.respond_nested(black_box(Vector2::new(-5e-7, 2.1e-5)), black_box(&old)));
+    bencher.bench_local(|| LAW.respond_nested(black_box(Local::new(-5e-7, 2.1e-5, 0.0)), black_box(&old)));
 }
 
 #[divan::bench]

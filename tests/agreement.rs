@@ -51,6 +51,10 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f
     (states, numbers.fold(0.0, f64::max))
 }
 
+fn tractions(state: &ModelState) -> impl Iterator<Item = f64> {
+    state.snapshot.tractions.iter().flatten().flatten().copied()
+}
+
 /// Largest difference over the largest value.
 fn apart(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
     let (mut difference, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
@@ -74,7 +78,6 @@ fn all_forms_find_the_same() {
             assert_eq!(condensed.len(), states.len());
             let mut worst = [0.0_f64; 2];
             for (a, b) in condensed.iter().zip(&states) {
-                let tractions = |state: &ModelState| state.snapshot.tractions.concat().into_iter().flatten();
                 worst[0] = worst[0].max(apart(a.snapshot.u.iter().copied(), b.snapshot.u.iter().copied()));
                 worst[1] = worst[1].max(apart(tractions(a), tractions(b)));
             }

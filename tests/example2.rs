@@ -9,9 +9,8 @@
 mod common;
 
 use common::*;
-use midplane::law::{Integration, Law, State as LawState};
+use midplane::law::{Integration, Law, Local, State as LawState};
 use midplane::shape::Shape;
-use nalgebra::Vector2;
 
 const K: f64 = 1e7;
 const SLIP: f64 = 1e-3;
@@ -43,12 +42,12 @@ fn layers(shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
 }
 
 /// Tractions of one point that follows the same jumps.
-fn point_curve(law: &Law, sigma: f64, tolerance: f64) -> Vec<Vector2<f64>> {
+fn point_curve(law: &Law, sigma: f64, tolerance: f64) -> Vec<Local> {
     let mut state = LawState::default();
     let slips = (0..=INCREMENTS).map(|i| SLIP * i as f64 / INCREMENTS as f64);
     slips
         .map(|slip| {
-            let jump = Vector2::new(sigma / K, slip); // no dilatancy: σ stays
+            let jump = Local::new(sigma / K, slip, 0.0); // no dilatancy: σ stays
             state = law.respond(jump, &state, Integration::Tolerance(tolerance)).unwrap().state;
             state.traction
         })
@@ -75,9 +74,9 @@ fn every_law_point_carries_the_curve_of_one() {
                 assert!(march.iterations.iter().all(|&n| n == 1), "{what}: {:?}", march.iterations);
                 let peak = curve.iter().map(|t| t.y).fold(0.0, f64::max);
                 for (state, exact) in march.states.iter().zip(&curve) {
-                    for [n, t] in &state.snapshot.tractions[0] {
-                        close(*n, exact.x, 1e-8, sigma, &what);
-                        close(*t, exact.y, 1e-8, peak, &what);
+                    for traction in &state.snapshot.tractions[0] {
+                        close(traction.x, exact.x, 1e-8, sigma, &what);
+                        close(traction.y, exact.y, 1e-8, peak, &what);
                     }
                     for cell in state.snapshot.stresses.iter().flat_map(|stresses| &stresses.cells) {
                         for (got, exact) in cell.iter().zip([0.0, sigma, 0.0, 0.0]) {
@@ -100,9 +99,9 @@ fn both_readings_of_the_energies_end_where_the_closed_form_does() {
             let text = scene(sigma, scale, "projected", "auto", 1e-8);
             let problem = bind(&text, layers(Shape::Quadrilateral4, (5, 8))).unwrap();
             let (states, _) = solve(&problem);
-            for [n, t] in &states[INCREMENTS].snapshot.tractions[0] {
-                close(*t, exact, 1e-7, exact, &format!("σ = {sigma}, energies times {scale}"));
-                close(*n, sigma, 1e-9, sigma, "σ");
+            for traction in &states[INCREMENTS].snapshot.tractions[0] {
+                close(traction.y, exact, 1e-7, exact, &format!("σ = {sigma}, energies times {scale}"));
+                close(traction.x, sigma, 1e-9, sigma, "σ");
             }
         }
     }

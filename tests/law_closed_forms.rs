@@ -16,8 +16,7 @@ mod law_help;
 
 use law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{ComponentControl, Controlled, LawPath, PathRow, PathSegment, drive};
-use midplane::law::{Cracking, Integration, Law, State};
-use nalgebra::Vector2;
+use midplane::law::{Cracking, Integration, Law, Local, State, WORK};
 
 fn jump(start: f64, end: f64) -> ComponentControl {
     ComponentControl { control: Controlled::Displacement, start, end }
@@ -76,7 +75,7 @@ fn pure_tension_follows_its_closed_form() {
                 if opening(middle) < row.state.jump.x { lo = middle } else { hi = middle }
             }
             close(row.state.traction.x, sigma_at(lo), 1e-9, "σ(u)");
-            close(row.state.fracture_work / energy, lo, 1e-9, "W(u)/G_I");
+            close(row.state.own[WORK] / energy, lo, 1e-9, "W(u)/G_I");
         }
     }
 }
@@ -97,12 +96,12 @@ fn one_backward_euler_step_in_tension_is_closed() {
     let mut old = State::default();
     for opening in [1e-5, 5e-5, 3e-4] {
         let new = Law::Cracking(law)
-            .respond(Vector2::new(opening, 0.0), &old, Integration::BackwardEuler(1))
+            .respond(Local::new(opening, 0.0, 0.0), &old, Integration::BackwardEuler(1))
             .unwrap()
             .state;
         let plastic = new.jump_plastic.x - old.jump_plastic.x;
-        let work = (old.fracture_work + chi * plastic) / (1.0 + chi * plastic / energy);
-        close(new.fracture_work / energy, work / energy, 1e-13, "W/G_I");
+        let work = (old.own[WORK] + chi * plastic) / (1.0 + chi * plastic / energy);
+        close(new.own[WORK] / energy, work / energy, 1e-13, "W/G_I");
         old = new;
     }
 }
@@ -116,7 +115,7 @@ fn shear_at_constant_compression_has_its_peak_its_slip_and_its_residual() {
         let at_peak = peak / law.tangential_stiffness;
         let rows = shear(&law, sigma, at_peak, 4, Integration::Tolerance(1e-8));
         close(rows.last().unwrap().state.traction.y, peak, 1e-12 * peak, "peak");
-        assert_eq!(rows.last().unwrap().state.fracture_work, 0.0);
+        assert_eq!(rows.last().unwrap().state.own[WORK], 0.0);
 
         let tau = |w: f64| {
             let now = law.strength(w);
@@ -127,7 +126,7 @@ fn shear_at_constant_compression_has_its_peak_its_slip_and_its_residual() {
             integral(|w| 1.0 / (tau(w) + sigma * law.strength(w).tan_friction), from, to)
         };
         for row in &shear(&law, sigma, 4e-4, 10, Integration::Tolerance(1e-10))[2..] {
-            let w = row.state.fracture_work;
+            let w = row.state.own[WORK];
             let expected = slip(0.0, w.min(law.fracture_energy_i)) + slip(law.fracture_energy_i.min(w), w);
             close(row.state.traction.y, tau(w), 1e-12 * peak, "τ_y(σ; W)");
             close(row.state.jump_plastic.y / expected, 1.0, 1e-9, "slip(W)");
@@ -175,7 +174,7 @@ fn the_areas_under_the_curves_are_the_fracture_energies() {
             let rows = shear(&law, sigma, 2e-2, 100_000, Integration::Tolerance(1e-4));
             let (c, t) = (law.cohesion, law.tan_friction);
             let peak = ((c - sigma * t).powi(2) - (c - law.tensile_strength * t).powi(2)).sqrt();
-            let above = |s: &State| match s.fracture_work {
+            let above = |s: &State| match s.own[WORK] {
                 0.0 => peak + sigma * t, // no slip before the peak
                 _ => s.traction.y + s.traction.x * t,
             };
@@ -202,15 +201,15 @@ fn with_sigma_constrained_at_zero_the_shear_stress_is_gone_after_a_finite_slip()
     let (first, last) = (constrained[0], constrained[constrained.len() - 10]);
     for state in [first, last] {
         assert_eq!(state.traction.x, 0.0);
-        close(state.traction.y, tau(state.fracture_work), 1e-12, "τ(W)");
+        close(state.traction.y, tau(state.own[WORK]), 1e-12, "τ(W)");
     }
     // the integrand has a root at W = G_I: substitute W = G_I − v²
     let energy = law.fracture_energy_i;
     let v = |w: f64| (energy - w).sqrt();
-    let expected = integral(|v| 2.0 * v / tau(energy - v * v), v(last.fracture_work), v(first.fracture_work));
+    let expected = integral(|v| 2.0 * v / tau(energy - v * v), v(last.own[WORK]), v(first.own[WORK]));
     close((last.jump_plastic.y - first.jump_plastic.y) / expected, 1.0, 1e-9, "slip in Z");
     let end = rows.last().unwrap().state;
-    assert_eq!((end.traction, end.status), (Vector2::zeros(), 4));
+    assert_eq!((end.traction, end.status), (Local::zeros(), 4));
 }
 
 /// A case of the paper's example 2 (§4.2) at σ = −10 MPa, to ten digits by an independent program (adaptive
@@ -242,7 +241,7 @@ fn example_2_of_the_paper_in_both_readings_of_its_energies() {
         for (slip, tau, work) in table {
             let row = rows.iter().find(|row| (row.state.jump.y - slip).abs() < 1e-12).unwrap();
             close(row.state.traction.y, tau, 1e-6 * tau, "τ");
-            close(row.state.fracture_work, work, 1e-6 * law.fracture_energy_iia, "W");
+            close(row.state.own[WORK], work, 1e-6 * law.fracture_energy_iia, "W");
         }
     }
 }
@@ -286,7 +285,7 @@ fn mixed_ways_meet_the_independent_values() {
             let state = &rows[(400.0 * fraction).round() as usize].state;
             close(state.traction.x, sigma, 1e-6, "σ");
             close(state.traction.y, tau, 1e-6, "τ");
-            close(state.fracture_work, work, 1e-6 * law.fracture_energy_i, "W");
+            close(state.own[WORK], work, 1e-6 * law.fracture_energy_i, "W");
         }
     }
 }

@@ -11,8 +11,7 @@
 mod law_help;
 
 use law_help::close;
-use midplane::law::{Coulomb, Elastic, Integration, Law, Response, State};
-use nalgebra::{Matrix2, Vector2};
+use midplane::law::{Coulomb, Elastic, Integration, Law, Local, LocalMatrix, Response, State, local};
 
 const STEPPING: Integration = Integration::Tolerance(1e-4);
 
@@ -26,15 +25,15 @@ const BLOCK: Coulomb = Coulomb {
 
 fn respond(law: &Coulomb, jump: [f64; 2], old: &State) -> Response {
     law.check().unwrap();
-    Law::Coulomb(*law).respond(Vector2::from(jump), old, STEPPING).unwrap()
+    Law::Coulomb(*law).respond(local(&jump), old, STEPPING).unwrap()
 }
 
 /// The end of a straight way in equal parts, with all that was dissipated and released on it.
 fn walk(law: &Coulomb, old: &State, jump: [f64; 2], parts: usize) -> (State, f64, f64) {
-    let (from, to) = (old.jump, Vector2::from(jump));
+    let (from, to) = (old.jump, local(&jump));
     (1..=parts).fold((*old, 0.0, 0.0), |(state, dissipated, released), part| {
         let jump = from + (to - from) * (part as f64 / parts as f64);
-        let response = respond(law, jump.into(), &state);
+        let response = respond(law, [jump[0], jump[1]], &state);
         (response.state, dissipated + response.dissipation, released + response.released)
     })
 }
@@ -102,7 +101,7 @@ fn faces_that_meet_slide_from_there() {
         ("touch", rough, [-1e-3, 4e-4], 0.0, 0.0, 4e-4, 0.0),
     ];
     for (what, law, end, sigma, tau, slip, energy) in rows {
-        let start = Law::Coulomb(law).initial_state(Vector2::zeros(), 1e-3).unwrap();
+        let start = Law::Coulomb(law).initial_state(Local::zeros(), 1e-3).unwrap();
         for parts in [1, 2, 4, 40] {
             let (state, dissipated, released) = walk(&law, &start, end, parts);
             let what = format!("{what} in {parts} parts");
@@ -164,13 +163,13 @@ fn faces_that_part_dissipate_by_slip_and_release_the_rest() {
         ),
     ];
     for (what, law, sigma, tau, energy, drop, opening) in rows {
-        let start = Law::Coulomb(law).initial_state(Vector2::new(sigma, tau), 0.0).unwrap();
+        let start = Law::Coulomb(law).initial_state(Local::new(sigma, tau, 0.0), 0.0).unwrap();
         for parts in [1, 10, 100] {
             let (state, dissipated, released) = walk(&law, &start, [2e-3, 0.0], parts);
             let what = format!("{what} in {parts} parts");
             assert_eq!(
                 (state.traction, state.status, state.jump_plastic.y),
-                (Vector2::zeros(), 4, 0.0),
+                (Local::zeros(), 4, 0.0),
                 "{what}"
             );
             close(dissipated, energy, 1e-12 * energy, &what);
@@ -189,7 +188,7 @@ fn faces_that_part_dissipate_by_slip_and_release_the_rest() {
 #[test]
 fn dilatancy_holds_faces_together_past_the_apex() {
     let law = Coulomb { normal_stiffness: 4e4, friction_coefficient: 1.0, dilatancy: 0.5, ..BLOCK };
-    let start = Law::Coulomb(law).initial_state(Vector2::new(-4.0, -3.0), 0.0).unwrap();
+    let start = Law::Coulomb(law).initial_state(Local::new(-4.0, -3.0, 0.0), 0.0).unwrap();
     let (before, after) = (2.0 / 3.0 / 3e4, 26.0 * 13.0 / 18.0 / 3e4);
     let sigma = -4e4 / 3.0 * 1e-4 * 13.0 / 18.0;
     for parts in [1, 2, 3, 17] {
@@ -202,12 +201,12 @@ fn dilatancy_holds_faces_together_past_the_apex() {
         assert_eq!(released, 0.0);
     }
     // ways through the apex and on either side of it end close to each other
-    let end = Vector2::new(1e-4, 2.5e-4);
+    let end = Local::new(1e-4, 2.5e-4, 0.0);
     for part in 1..100 {
         for aside in [-1e-9, 0.0, 1e-9] {
-            let jump = -end * part as f64 / 70.0 + Vector2::new(0.0, aside);
-            let old = State { jump, jump_plastic: Vector2::zeros(), ..start };
-            let sigma = respond(&law, end.into(), &old).traction.x;
+            let jump = -end * part as f64 / 70.0 + Local::new(0.0, aside, 0.0);
+            let old = State { jump, jump_plastic: Local::zeros(), ..start };
+            let sigma = respond(&law, [end[0], end[1]], &old).traction.x;
             close(sigma, -4e4 / 3.0 * 0.25e-4, if aside == 0.0 { 1e-12 } else { 1e-4 }, "σ");
         }
     }
@@ -235,9 +234,9 @@ fn without_friction_there_is_no_shear_stress_and_with_much_there_is_no_slip() {
 #[test]
 fn an_open_interface_carries_nothing_and_closes_where_it_is() {
     let law = Coulomb { cohesion: 0.3, ..BLOCK };
-    let state = Law::Coulomb(law).initial_state(Vector2::zeros(), 1e-4).unwrap();
+    let state = Law::Coulomb(law).initial_state(Local::zeros(), 1e-4).unwrap();
     let open = respond(&law, [-0.9e-4, 2e-4], &state);
-    assert_eq!((open.traction, open.stiffness, open.state.status), (Vector2::zeros(), Matrix2::zeros(), 4));
+    assert_eq!((open.traction, open.stiffness, open.state.status), (Local::zeros(), LocalMatrix::zeros(), 4));
     let closed = respond(&law, [-2e-4, 2.11e-4], &open.state);
     close(closed.traction.x, -1.0, 1e-12, "σ = K_N (r_n + g)");
     close(closed.traction.y, 0.1, 1e-12, "τ from where it closed, a part 1/11 of the way");
@@ -258,11 +257,11 @@ fn dilatancy_presses_a_confined_interface() {
 #[test]
 fn the_elastic_law_adds_its_initial_traction() {
     let springs = Elastic { normal_stiffness: 1e3, tangential_stiffness: 0.0 };
-    let initial = Vector2::new(-2.0, 0.5); // a direction without stiffness still carries it
+    let initial = Local::new(-2.0, 0.5, 0.0); // a direction without stiffness still carries it
     let law = Law::Elastic(springs);
     let state = law.initial_state(initial, 0.0).unwrap();
     let mut way = state;
-    for jump in [Vector2::new(1e-3, 1.0), Vector2::new(-1e-3, 2.0)] {
+    for jump in [Local::new(1e-3, 1.0, 0.0), Local::new(-1e-3, 2.0, 0.0)] {
         let response = law.respond(jump, &way, STEPPING).unwrap();
         assert_eq!(response.traction, springs.traction(jump, initial));
         way = response.state;
@@ -272,14 +271,14 @@ fn the_elastic_law_adds_its_initial_traction() {
 #[test]
 fn an_initial_traction_must_be_one_the_interface_can_carry() {
     let law = Law::Coulomb(BLOCK);
-    let state = law.initial_state(Vector2::new(-2.0, 1.0), 0.0).unwrap();
+    let state = law.initial_state(Local::new(-2.0, 1.0, 0.0), 0.0).unwrap();
     close(state.jump_plastic.x, 2e-4, 1e-18, "−K⁻¹ t₀");
-    assert_eq!(law.respond(Vector2::zeros(), &state, STEPPING).unwrap().traction, Vector2::new(-2.0, 1.0));
-    assert_eq!(law.initial_state(Vector2::new(-2.0, 1.3), 0.0).unwrap_err().key, "initial_traction");
-    assert_eq!(law.initial_state(Vector2::new(1.0, 0.0), 0.0).unwrap_err().key, "initial_traction");
+    assert_eq!(law.respond(Local::zeros(), &state, STEPPING).unwrap().traction, Local::new(-2.0, 1.0, 0.0));
+    assert_eq!(law.initial_state(Local::new(-2.0, 1.3, 0.0), 0.0).unwrap_err().key, "initial_traction");
+    assert_eq!(law.initial_state(Local::new(1.0, 0.0, 0.0), 0.0).unwrap_err().key, "initial_traction");
     // faces that overlap press on each other
-    let pressed = law.initial_state(Vector2::zeros(), -1e-3).unwrap();
+    let pressed = law.initial_state(Local::zeros(), -1e-3).unwrap();
     close(pressed.traction.x, -1e-3 * BLOCK.normal_stiffness, 1e-12, "−K_N times the overlap");
-    assert_eq!(law.respond(Vector2::zeros(), &pressed, STEPPING).unwrap().traction, pressed.traction);
-    assert_eq!(law.initial_state(Vector2::zeros(), f64::NAN).unwrap_err().key, "initial_gap");
+    assert_eq!(law.respond(Local::zeros(), &pressed, STEPPING).unwrap().traction, pressed.traction);
+    assert_eq!(law.initial_state(Local::zeros(), f64::NAN).unwrap_err().key, "initial_gap");
 }

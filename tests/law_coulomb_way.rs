@@ -15,13 +15,13 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Coulomb, Integration, Law, N, Response, State, T};
-use nalgebra::{Matrix3x2, Vector2, Vector3};
+use midplane::law::{Coulomb, Integration, Law, Local, N, Response, State, T};
+use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
 const OPEN: u8 = 4;
 
-fn respond(law: &Coulomb, jump: Vector2<f64>, old: &State) -> Response {
+fn respond(law: &Coulomb, jump: Local, old: &State) -> Response {
     Law::Coulomb(*law).respond(jump, old, Integration::Tolerance(1e-4)).unwrap()
 }
 
@@ -29,7 +29,7 @@ fn respond(law: &Coulomb, jump: Vector2<f64>, old: &State) -> Response {
 struct Case {
     law: Coulomb,
     old: State,
-    end: Vector2<f64>,
+    end: Local,
 }
 
 impl Case {
@@ -45,7 +45,7 @@ impl Case {
         };
         law.check().unwrap();
         let gap = if random.coin() { 0.0 } else { random.between(0.0, 2.0) / kn };
-        let mut old = Law::Coulomb(law).initial_state(Vector2::zeros(), gap).unwrap();
+        let mut old = Law::Coulomb(law).initial_state(Local::zeros(), gap).unwrap();
         for _ in 0..random.between(0.0, 5.0) as usize {
             old = respond(&law, next(&law, &old, random), &old).state;
         }
@@ -53,7 +53,7 @@ impl Case {
         Case { law, old, end }
     }
 
-    fn at(&self, s: f64) -> Vector2<f64> {
+    fn at(&self, s: f64) -> Local {
         self.old.jump + s * (self.end - self.old.jump)
     }
 
@@ -62,7 +62,7 @@ impl Case {
         self.reach(&[self.old.jump, self.old.jump_plastic, self.end])
     }
 
-    fn reach(&self, jumps: &[Vector2<f64>]) -> f64 {
+    fn reach(&self, jumps: &[Local]) -> f64 {
         let Coulomb { normal_stiffness: kn, tangential_stiffness: kt, cohesion, .. } = self.law;
         jumps.iter().fold(cohesion, |size, jump| size.max(kn * jump.x.abs()).max(kt * jump.y.abs()))
     }
@@ -84,12 +84,12 @@ impl Case {
 }
 
 /// A jump around the irreversible one or the present one, or in a line with the present one along an axis.
-fn next(law: &Coulomb, old: &State, random: &mut Random) -> Vector2<f64> {
+fn next(law: &Coulomb, old: &State, random: &mut Random) -> Local {
     let way = random.direction() * random.power(-1.5, 1.5);
-    let way = Vector2::new(way.x / law.normal_stiffness, way.y / law.tangential_stiffness);
+    let way = Local::new(way.x / law.normal_stiffness, way.y / law.tangential_stiffness, 0.0);
     match random.between(0.0, 10.0) as usize {
-        0 => old.jump + Vector2::new(way.x, 0.0),
-        1 => old.jump + Vector2::new(0.0, way.y),
+        0 => old.jump + Local::new(way.x, 0.0, 0.0),
+        1 => old.jump + Local::new(0.0, way.y, 0.0),
         2..6 => old.jump + way,
         _ => old.jump_plastic + way,
     }
@@ -157,7 +157,7 @@ fn the_parts_of_a_way_make_no_difference() {
 }
 
 /// ∫ t · dr over a part of the way, halved until the tractions at five uneven places lie on one line.
-fn work(case: &Case, [from, to]: [f64; 2], ends: [Vector2<f64>; 2]) -> f64 {
+fn work(case: &Case, [from, to]: [f64; 2], ends: [Local; 2]) -> f64 {
     let traction = |s: f64| respond(&case.law, case.at(s), &case.old).traction;
     let straight = [0.137, 0.391, 0.5, 0.683, 0.9].into_iter().all(|part| {
         let linear = ends[0] + part * (ends[1] - ends[0]);
@@ -177,7 +177,7 @@ fn the_work_along_a_way_is_stored_dissipated_or_released() {
     cases(2, 3000, |case| {
         let whole = respond(&case.law, case.end, &case.old);
         let (kn, kt) = (case.law.normal_stiffness, case.law.tangential_stiffness);
-        let stored = |t: Vector2<f64>| 0.5 * (t.x * t.x / kn + t.y * t.y / kt);
+        let stored = |t: Local| 0.5 * (t.x * t.x / kn + t.y * t.y / kt);
         let spent = stored(whole.traction) - stored(case.old.traction) + whole.dissipation + whole.released;
         let pieces = 8;
         let at = |k: usize| respond(&case.law, case.at(k as f64 / pieces as f64), &case.old).traction;
@@ -229,14 +229,14 @@ fn only_cohesion_drops_at_once() {
     assert!(drops > 100);
 }
 
-/// Differences (f(r + δ) − f(r)) / δ of traction and dissipation, by rows σ, τ, D and columns n, t.
-fn quotient(case: &Case, step: f64) -> Matrix3x2<f64> {
+/// Differences (f(r + δ) − f(r)) / δ of traction and dissipation, by rows σ, τ, D and columns n, t, s.
+fn quotient(case: &Case, step: f64) -> Matrix3<f64> {
     let answer = |jump| {
         let response = respond(&case.law, jump, &case.old);
         Vector3::new(response.traction.x, response.traction.y, response.dissipation)
     };
-    let shifts = [Vector2::new(step, 0.0), Vector2::new(0.0, step)];
-    Matrix3x2::from_columns(&shifts.map(|shift| (answer(case.end + shift) - answer(case.end)) / step))
+    let shifts = [Local::x(), Local::y(), Local::z()].map(|axis| axis * step);
+    Matrix3::from_columns(&shifts.map(|shift| (answer(case.end + shift) - answer(case.end)) / step))
 }
 
 #[test]
@@ -249,7 +249,7 @@ fn stiffness_and_gradient_are_derivatives() {
             case.law.normal_stiffness.max(case.law.tangential_stiffness).max(whole.stiffness.amax());
         let size =
             Vector3::new(stiffest, stiffest, stiffest * length + whole.traction.amax() + case.law.cohesion);
-        let relative = |m: Matrix3x2<f64>| Matrix3x2::from_fn(|i, j| m[(i, j)] / size[i]);
+        let relative = |m: Matrix3<f64>| Matrix3::from_fn(|i, j| m[(i, j)] / size[i]);
         let [coarse, fine] = [1e-5, 5e-6].map(|step| {
             let [plus, minus] = [step, -step].map(|step| quotient(case, step * length));
             (relative(0.5 * (plus + minus)), relative(plus - minus))
@@ -262,7 +262,7 @@ fn stiffness_and_gradient_are_derivatives() {
             return false;
         }
         let [sigma, tau] = [N, T].map(|i| whole.stiffness.row(i).into_owned());
-        let exact = Matrix3x2::from_rows(&[sigma, tau, whole.dissipation_gradient.transpose()]);
+        let exact = Matrix3::from_rows(&[sigma, tau, whole.dissipation_gradient.transpose()]);
         let off = (relative(exact) - fine.0).abs();
         let off = [off.rows(0, 2).max(), off.row(2).max()];
         assert!(off.iter().all(|&off| off <= 1e-7), "{off:?}: {}", case.sequence());
@@ -276,19 +276,19 @@ fn stiffness_and_gradient_are_derivatives() {
 }
 
 /// One step of backward Euler: the return from the end of the step alone.
-fn euler(law: &Coulomb, jump: Vector2<f64>, old: &State) -> (State, f64) {
+fn euler(law: &Coulomb, jump: Local, old: &State) -> (State, f64) {
     let Coulomb { normal_stiffness: kn, tangential_stiffness: kt, friction_coefficient: mu, .. } = *law;
     let elastic = jump - old.jump_plastic;
-    let trial = Vector2::new(kn * elastic.x, kt * elastic.y);
+    let trial = Local::new(kn * elastic.x, kt * elastic.y, 0.0);
     let slip = ((trial.y.abs() + mu * trial.x - law.cohesion) / (kt + mu * kn * law.dilatancy)).max(0.0);
     let sigma = trial.x - kn * law.dilatancy * slip;
     let apart = old.jump.x > old.jump_plastic.x && elastic.x > 0.0;
     if apart || sigma > 0.0 {
-        let jump_plastic = Vector2::new(old.jump_plastic.x, jump.y);
-        return (State { jump, traction: Vector2::zeros(), jump_plastic, status: OPEN, ..*old }, 0.0);
+        let jump_plastic = Local::new(old.jump_plastic.x, jump.y, 0.0);
+        return (State { jump, traction: Local::zeros(), jump_plastic, status: OPEN, ..*old }, 0.0);
     }
-    let irreversible = slip * Vector2::new(law.dilatancy, trial.y.signum());
-    let traction = Vector2::new(sigma, trial.y - kt * irreversible.y);
+    let irreversible = slip * Local::new(law.dilatancy, trial.y.signum(), 0.0);
+    let traction = Local::new(sigma, trial.y - kt * irreversible.y, 0.0);
     let state = State { jump, traction, jump_plastic: old.jump_plastic + irreversible, status: 0, ..*old };
     (state, traction.dot(&irreversible))
 }

@@ -7,8 +7,7 @@
 mod law_help;
 
 use law_help::{EXAMPLE_2, Random, close};
-use midplane::law::{Cracking, Inadmissible, Integration, Law, State};
-use nalgebra::{Matrix2, Vector2};
+use midplane::law::{Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, State, WORK};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {
     let Inadmissible { key: blamed, what, help } = law.check().unwrap_err();
@@ -24,9 +23,9 @@ fn walk(law: &Cracking, ways: &[[f64; 2]], integration: Integration) -> Vec<Stat
     let mut state = State::default();
     ways.iter()
         .map(|&[n, t]| {
-            let response = Law::Cracking(*law).respond(Vector2::new(n, t), &state, integration).unwrap();
+            let response = Law::Cracking(*law).respond(Local::new(n, t, 0.0), &state, integration).unwrap();
             assert!(response.stiffness.iter().all(|x| x.is_finite()), "{response:?}");
-            assert!(response.state.fracture_work >= state.fracture_work);
+            assert!(response.state.own[WORK] >= state.own[WORK]);
             assert!(response.dissipation >= 0.0);
             state = response.state;
             state
@@ -85,10 +84,10 @@ fn b15_without_any_strength_the_law_is_coulomb_friction() {
     for integration in STEPPINGS {
         let states =
             walk(&law, &[[0.0, 1e-6], [1e-6, 1e-6], [0.0, 0.0], [-1e-6, 0.0], [-1e-6, 1e-4]], integration);
-        assert_eq!(states[1].traction, Vector2::zeros());
+        assert_eq!(states[1].traction, Local::zeros());
         let limit = 0.8785 * -states[4].traction.x;
         close(states[4].traction.y, limit, 1e-12, "τ = μ |σ|");
-        assert_eq!((states[4].fracture_work, states[4].status), (0.0, 2));
+        assert_eq!((states[4].own[WORK], states[4].status), (0.0, 2));
     }
 }
 
@@ -179,32 +178,33 @@ fn b20_without_dilatancy_sigma_sticks_to_zero() {
 #[test]
 fn b21_unloading_is_elastic_reversal_yields_on_the_other_side_and_closing_carries_at_once() {
     let law = EXAMPLE_2;
-    let elastic = Matrix2::new(1e7, 0.0, 0.0, 1e7);
+    let elastic = LocalMatrix::identity() * 1e7;
     for integration in STEPPINGS {
         // shear at σ = −5, back, and beyond
         let mut state = walk(&law, &[[-5e-7, 0.0], [-5e-7, 1e-4]], integration)[1];
-        let (tau, work) = (state.traction.y, state.fracture_work);
-        let back = Law::Cracking(law).respond(Vector2::new(-5e-7, 1e-4 - 5e-7), &state, integration).unwrap();
-        assert_eq!((back.stiffness, back.dissipation, back.state.fracture_work), (elastic, 0.0, work));
+        let (tau, work) = (state.traction.y, state.own[WORK]);
+        let back =
+            Law::Cracking(law).respond(Local::new(-5e-7, 1e-4 - 5e-7, 0.0), &state, integration).unwrap();
+        assert_eq!((back.stiffness, back.dissipation, back.state.own[WORK]), (elastic, 0.0, work));
         close(back.traction.y, tau - 5.0, 1e-9, "unloading");
         state =
-            Law::Cracking(law).respond(Vector2::new(-5e-7, 9e-5), &back.state, integration).unwrap().state;
-        assert!(state.traction.y < 0.0 && state.fracture_work > work && state.status == 2);
+            Law::Cracking(law).respond(Local::new(-5e-7, 9e-5, 0.0), &back.state, integration).unwrap().state;
+        assert!(state.traction.y < 0.0 && state.own[WORK] > work && state.status == 2);
 
         // open, close: compression from the irreversible opening on
         let open = walk(&law, &[[8e-5, 0.0]], integration)[0];
-        let closed = Vector2::new(open.jump_plastic.x - 1e-6, 0.0);
+        let closed = Local::new(open.jump_plastic.x - 1e-6, 0.0, 0.0);
         let response = Law::Cracking(law).respond(closed, &open, integration).unwrap();
         close(response.traction.x, -10.0, 1e-9, "closing");
-        assert_eq!((response.stiffness, response.state.fracture_work), (elastic, open.fracture_work));
+        assert_eq!((response.stiffness, response.state.own[WORK]), (elastic, open.own[WORK]));
     }
     // and never a negative dissipation on any zigzag
     let mut random = Random(21);
     let mut state = State::default();
     for _ in 0..20_000 {
-        let jump = Vector2::new(random.between(-2e-6, 4e-6), random.between(-2e-5, 2e-5));
+        let jump = Local::new(random.between(-2e-6, 4e-6), random.between(-2e-5, 2e-5), 0.0);
         let response = Law::Cracking(law).respond(jump, &state, STEPPINGS[0]).unwrap();
-        assert!(response.dissipation >= 0.0 && response.state.fracture_work >= state.fracture_work);
+        assert!(response.dissipation >= 0.0 && response.state.own[WORK] >= state.own[WORK]);
         state = response.state;
     }
 }

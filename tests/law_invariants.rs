@@ -7,8 +7,7 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Response, State};
-use nalgebra::Vector2;
+use midplane::law::{Cracking, Integration, Law, Local, Response, State, WORK};
 
 /// Of the strength or the traction.
 const ROUNDING: f64 = 1e-12;
@@ -19,7 +18,7 @@ fn hyperbola(law: &Cracking, state: &State) -> f64 {
         let (e, xi) = ((-alpha).exp(), xi.clamp(0.0, 1.0));
         e * xi / (1.0 + (e - 1.0) * xi)
     };
-    let w = state.fracture_work;
+    let w = state.own[WORK];
     let chi = law.tensile_strength * (1.0 - shape(w / law.fracture_energy_i, law.alpha_tensile_strength));
     let c = law.cohesion * (1.0 - shape(w / law.fracture_energy_iia, law.alpha_cohesion));
     let loss = law.tan_friction - law.tan_friction_residual.unwrap_or(law.tan_friction);
@@ -37,14 +36,14 @@ fn check(law: &Cracking, old: &State, response: &Response) {
     let outside = hyperbola(law, state);
     assert!(outside <= ROUNDING * scale, "F = {outside:e}: {law:?} {old:?} {response:?}");
     assert!(state.traction.x <= law.tensile_strength * (1.0 + ROUNDING));
-    assert!(state.fracture_work >= old.fracture_work, "W falls: {law:?} {old:?} {response:?}");
+    assert!(state.own[WORK] >= old.own[WORK], "W falls: {law:?} {old:?} {response:?}");
     let released = scale * scale / law.normal_stiffness.min(law.tangential_stiffness);
     assert!(*dissipation >= -1e-15 * released, "dissipation {dissipation:e}: {law:?} {old:?} {response:?}");
 }
 
 /// Under enormous compression the loss of friction alone takes the shear traction faster than K_T can follow:
 /// |σ| |dtanφ/dW| c ≥ K_T. There is no continuous answer then, and the law must say so.
-fn may_leap(law: &Cracking, old: &State, jump: Vector2<f64>) -> bool {
+fn may_leap(law: &Cracking, old: &State, jump: Local) -> bool {
     let trial = old.traction.x + law.normal_stiffness * (jump.x - old.jump.x);
     let compression = -trial.min(old.traction.x);
     let loss = law.tan_friction - law.tan_friction_residual.unwrap();
@@ -94,7 +93,7 @@ fn a_million_random_steps_keep_every_promise() {
 
 #[test]
 fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothing() {
-    let mirror = |v: Vector2<f64>| Vector2::new(v.x, -v.y);
+    let mirror = |v: Local| Local::new(v.x, -v.y, 0.0);
     let mut random = Random(5);
     for _ in 0..2000 {
         let law = random.cracking();
@@ -108,7 +107,7 @@ fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothin
             state = go(jump, &state).state;
             mirrored = go(mirror(jump), &mirrored).state;
             assert_eq!(state.traction, mirror(mirrored.traction));
-            assert_eq!(state.fracture_work, mirrored.fracture_work);
+            assert_eq!(state.own[WORK], mirrored.own[WORK]);
 
             let again = go(jump, &state);
             assert_eq!((again.traction, again.dissipation), (state.traction, 0.0));
@@ -131,7 +130,7 @@ fn newton_agrees_with_the_safe_solver() {
             let response = Law::Cracking(law).respond(jump, &state, Integration::BackwardEuler(1)).unwrap();
             let off = (response.traction - traction).amax();
             assert!(off <= 1e-7 * law.cohesion, "{off:e}: {law:?} {state:?} {jump:?}");
-            assert!((response.state.fracture_work - work).abs() <= 1e-11 * law.fracture_energy_i);
+            assert!((response.state.own[WORK] - work).abs() <= 1e-11 * law.fracture_energy_i);
             state = response.state;
         }
     }

@@ -5,8 +5,7 @@ mod law_help;
 
 use law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{COLUMNS, LawPath, PathError, PathRow, drive, write_csv};
-use midplane::law::{Coulomb, Elastic, Integration, Law, State};
-use nalgebra::Vector2;
+use midplane::law::{Coulomb, Elastic, Integration, Law, Local, State};
 
 const STEPPING: Integration = Integration::Tolerance(1e-6);
 
@@ -71,7 +70,7 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
 
 #[test]
 fn both_tractions_may_be_prescribed_as_long_as_the_interface_can_carry_them() {
-    let target = Vector2::new(-5.0, 8.0); // the peak is 8.28
+    let target = Local::new(-5.0, 8.0, 0.0); // the peak is 8.28
     let rows = drive(
         &Law::Cracking(EXAMPLE_2),
         &path(&[("s", 0.0, -5.0, "s", 0.0, 8.0, 5)]),

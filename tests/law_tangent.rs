@@ -9,21 +9,16 @@
 mod law_help;
 
 use law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Response, State};
-use nalgebra::{Matrix2, Vector2};
+use midplane::law::{Cracking, Integration, Law, Local, LocalMatrix, Response, State};
 
 /// Largest difference, relative to the elastic stiffness (or the stiffness itself where it is larger).
 const EXACT: f64 = 1e-6;
 
-/// Central differences of traction (2 × 2) and dissipation (2), with step δ.
-fn quotient(
-    respond: &impl Fn(Vector2<f64>) -> Response,
-    jump: Vector2<f64>,
-    step: f64,
-) -> (Matrix2<f64>, Vector2<f64>) {
-    let (mut stiffness, mut gradient) = (Matrix2::zeros(), Vector2::zeros());
-    for i in 0..2 {
-        let mut shift = Vector2::zeros();
+/// Central differences of traction (3 × 3) and dissipation (3), with step δ.
+fn quotient(respond: &impl Fn(Local) -> Response, jump: Local, step: f64) -> (LocalMatrix, Local) {
+    let (mut stiffness, mut gradient) = (LocalMatrix::zeros(), Local::zeros());
+    for i in 0..3 {
+        let mut shift = Local::zeros();
         shift[i] = step;
         let (plus, minus) = (respond(jump + shift), respond(jump - shift));
         stiffness.set_column(i, &((plus.traction - minus.traction) / (2.0 * step)));
@@ -33,7 +28,7 @@ fn quotient(
 }
 
 /// A state some random steps away from the sound one, and the jump of the next step.
-fn random_state(random: &mut Random, law: &Cracking) -> (State, Vector2<f64>) {
+fn random_state(random: &mut Random, law: &Cracking) -> (State, Local) {
     let elastic = law.tensile_strength / law.normal_stiffness;
     let softening = law.fracture_energy_i / law.tensile_strength;
     let size = |random: &mut Random| random.power((0.3 * elastic).log10(), softening.log10());
@@ -50,12 +45,7 @@ fn random_state(random: &mut Random, law: &Cracking) -> (State, Vector2<f64>) {
 }
 
 /// Checks one stencil; `None` if it straddles a kink.
-fn check(
-    law: &Cracking,
-    respond: &impl Fn(Vector2<f64>) -> Response,
-    jump: Vector2<f64>,
-    what: &str,
-) -> Option<u8> {
+fn check(law: &Cracking, respond: &impl Fn(Local) -> Response, jump: Local, what: &str) -> Option<u8> {
     let response = respond(jump);
     let stiffest = law.normal_stiffness.max(law.tangential_stiffness).max(response.stiffness.amax());
     let step = 1e-4 * law.tensile_strength / law.normal_stiffness.max(law.tangential_stiffness);

@@ -42,8 +42,8 @@ fn shown(problem: &Problem, state: &ModelState, iterations: usize) -> Vec<f64> {
     let mut all = [vec![iterations as f64], energies.to_vec(), state.probes(problem)].concat();
     all.extend(&state.snapshot.u);
     all.extend(&state.reactions);
-    all.extend(state.snapshot.tractions.concat().as_flattened());
-    all.extend(state.snapshot.jumps.concat().as_flattened());
+    all.extend(state.snapshot.tractions.iter().flatten().flatten());
+    all.extend(state.snapshot.jumps.iter().flatten().flatten());
     all
 }
 

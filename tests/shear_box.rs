@@ -119,9 +119,9 @@ fn both_forms_agree() {
                     .iter()
                     .zip(&b.snapshot.u)
                     .for_each(|(a, b)| close(*a, *b, 1e-10, largest, &what));
-                let (a, b) = (a.snapshot.tractions[0].as_flattened(), b.snapshot.tractions[0].as_flattened());
-                let largest = b.iter().map(|t| t.abs()).fold(0.0, f64::max);
-                a.iter().zip(b).for_each(|(a, b)| close(*a, *b, 1e-9, largest, &what));
+                let [a, b] = [a, b].map(|state| state.snapshot.tractions[0].iter().flatten());
+                let largest = b.clone().map(|t| t.abs()).fold(0.0, f64::max);
+                a.zip(b).for_each(|(a, b)| close(*a, *b, 1e-9, largest, &what));
             }
         }
     }

@@ -139,7 +139,7 @@ fn load_control_snaps_from_the_peak_to_the_far_branch_and_tells_it() {
             for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
                 let u = load_factor * end;
                 let s = if u < CHI * c { u / c } else { far_branch(u, c) };
-                for [traction, _] in &state.snapshot.tractions[0] {
+                for traction in state.snapshot.tractions[0].iter().map(|v| &v[0]) {
                     close(*traction, s, 1e-6, CHI, &what);
                 }
             }
@@ -171,7 +171,7 @@ fn many_points_that_crack_at_once_end_as_the_closed_form_says_in_any_increments(
             for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
                 let u = load_factor * end;
                 let s = if u < CHI * c { u / c } else { far_branch(u, c) };
-                for [traction, _] in &state.snapshot.tractions[0] {
+                for traction in state.snapshot.tractions[0].iter().map(|v| &v[0]) {
                     close(*traction, s, 1e-5, CHI, &what);
                 }
             }

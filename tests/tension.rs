@@ -66,7 +66,7 @@ fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
         let mut cracked = 0;
         for (i, state) in states.iter().enumerate() {
             let u = end * (i + 1) as f64 / states.len() as f64;
-            for [s, t] in &state.snapshot.tractions[0] {
+            for (s, t) in state.snapshot.tractions[0].iter().map(|v| (&v[0], &v[1])) {
                 let on_path = if u <= peak { u / peak * CHI } else { *s };
                 close(*s, on_path, 1e-9, CHI, &what);
                 if u > peak {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::state::ModelState;
+use crate::law::{Local, N, S, T};
 use crate::problem::Problem;
 
 /// A jump, of a point that carries something, by more than an edge that faces it.
@@ -19,7 +20,7 @@ pub struct Beyond {
     /// The same over the shorter of the two edges that face each other there.
     pub edges: f64,
     /// Its place.
-    pub at: [f64; 2],
+    pub at: [f64; 3],
 }
 
 /// Notes the jumps of an increment that exceed an edge of either side.
@@ -30,8 +31,8 @@ pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told
         for (point, (jump, traction)) in coupling.points.iter().zip(jumps) {
             let [a, b] = point.facets;
             let edge = coupling.chord(0, a).min(coupling.chord(1, b));
-            let [opening, slip] = [jump[0], jump[1].abs()];
-            if opening.max(slip) <= edge || *traction == [0.0; 2] {
+            let (opening, slip) = (jump[N], jump[T].hypot(jump[S]));
+            if opening.max(slip) <= edge || *traction == Local::zeros() {
                 continue;
             }
             for (opens, jump) in [(true, opening), (false, slip)].into_iter().filter(|(_, jump)| *jump > edge)
@@ -42,7 +43,7 @@ pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told
                     increment,
                     jump,
                     edges: jump / edge,
-                    at: [point.position[0], point.position[1]],
+                    at: point.position,
                 };
                 match told.iter_mut().find(|one| one.opens == opens && one.interface == interface.name) {
                     Some(one) if new.edges > one.edges => *one = Beyond { increment: one.increment, ..new },

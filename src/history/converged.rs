@@ -1,7 +1,7 @@
 //! An increment that converged, as it comes from the search.
 
 use super::loading::Ledger;
-use crate::law;
+use crate::law::{self, Local};
 use crate::solver::NodalSolution;
 
 /// An interface whose jumps are unknowns, after an increment that converged.
@@ -9,8 +9,8 @@ use crate::solver::NodalSolution;
 pub(in crate::history) struct InterfaceResponse {
     /// Its number.
     pub(in crate::history) interface: usize,
-    /// Jump (n, t) at the law points.
-    pub(in crate::history) jumps: Vec<[f64; 2]>,
+    /// Jump at the law points.
+    pub(in crate::history) jumps: Vec<Local>,
     /// Responses of the law at its law points.
     pub(in crate::history) memory: Vec<PointResponse>,
 }
@@ -21,11 +21,11 @@ pub(in crate::history) struct PointResponse {
     pub(in crate::history) state: law::State,
     /// Energy dissipated in the increment per area, and its derivative by the jump.
     pub(in crate::history) dissipation: f64,
-    pub(in crate::history) gradient: [f64; 2],
+    pub(in crate::history) gradient: Local,
     /// Elastic energy lost at once in the increment per area.
     pub(in crate::history) released: f64,
     /// Viscous traction at its end.
-    pub(in crate::history) viscous: [f64; 2],
+    pub(in crate::history) viscous: Local,
 }
 
 /// An increment that converged.

@@ -4,7 +4,7 @@ use super::converged::{Converged, InterfaceResponse};
 use super::loading::{LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::LawPoint;
-use crate::law::{self, Law};
+use crate::law::{self, Law, Local};
 use crate::output::Snapshot;
 use crate::problem::Problem;
 use crate::solver::NodalSolution;
@@ -86,15 +86,14 @@ pub(super) fn across(model: &Model, snapshot: &Snapshot) -> f64 {
     let interfaces = model.interfaces.iter().zip(&snapshot.jumps).zip(&snapshot.states);
     let points = interfaces
         .flat_map(|((interface, jumps), states)| interface.coupling.points.iter().zip(jumps).zip(states));
-    let at = |((point, r), state): ((&LawPoint, &[f64; 2]), &law::State)| {
-        model.thickness * point.weight * (state.traction.x * r[0] + state.traction.y * r[1])
+    let at = |((point, r), state): ((&LawPoint, &Local), &law::State)| {
+        model.thickness * point.weight * state.traction.dot(r)
     };
     points.map(at).sum()
 }
 
 /// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].
 pub(super) fn elastic_energy(law: &Law, state: &law::State) -> f64 {
-    let [kn, kt] = law.elastic_stiffness();
     let t = state.traction;
-    0.5 * (t.x * t.x / kn + t.y * t.y / kt)
+    0.5 * t.component_mul(&t).component_div(&Local::from(law.elastic_stiffness())).sum()
 }

@@ -4,7 +4,9 @@ use super::analysis::Analysis;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::{no_equilibrium, unusable};
 use super::loading::{LoadForces, Start};
+use crate::assembly::Model;
 use crate::error::Result;
+use crate::law::Local;
 use crate::problem::{BoundInterface, BoundStep, Problem};
 
 /// Initial tractions whose forces are out of balance by less than this part are so by rounding.
@@ -20,10 +22,10 @@ pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -
         problem.model.interfaces.iter().zip(&problem.interfaces)
     {
         // faces that overlap press on each other without a traction of the scene
-        let at = |p: usize| states.get(p).map_or(initial.at(p), |state| state.traction.into());
+        let at = |p: usize| states.get(p).map_or(initial.at(p), |state| state.traction);
         let points = 0..interface.coupling.points.len();
-        given |= points.clone().any(|p| initial.at(p) != [0.0; 2]);
-        let at: Vec<f64> = points.flat_map(at).collect();
+        given |= points.clone().any(|p| initial.at(p) != Local::zeros());
+        let at: Vec<f64> = leading(&problem.model, points.map(at));
         if at.iter().any(|t| *t != 0.0) {
             interface.add_force(&at, &mut tractions);
         }
@@ -68,10 +70,14 @@ pub(super) fn initial_force(problem: &Problem) -> Vec<f64> {
         problem.model.interfaces.iter().zip(&problem.interfaces)
     {
         if states.is_empty() {
-            let tractions: Vec<f64> =
-                (0..interface.coupling.points.len()).flat_map(|p| initial.at(p)).collect();
-            interface.add_force(&tractions, &mut force);
+            let points = 0..interface.coupling.points.len();
+            interface.add_force(&leading(&problem.model, points.map(|p| initial.at(p))), &mut force);
         }
     }
     force
+}
+
+/// Local vectors one after the other, with as many components as the model has.
+fn leading(model: &Model, vectors: impl Iterator<Item = Local>) -> Vec<f64> {
+    vectors.flat_map(|v| <[f64; 3]>::from(v).into_iter().take(model.components)).collect()
 }

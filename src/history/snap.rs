@@ -47,11 +47,12 @@ pub(super) fn tell(
 }
 
 /// Name and position of a law point.
-pub(super) fn place_of(analysis: &Analysis, worst: &[(usize, usize)]) -> (String, [f64; 2]) {
-    let Some(&(interface, point)) = worst.first() else { return (String::new(), [0.0; 2]) };
-    let interface = &analysis.problem.model.interfaces[interface];
-    let [x, y, _] = interface.coupling.points[point].position;
-    (interface.name.clone(), [x, y])
+pub(super) fn place_of(analysis: &Analysis, worst: &[(usize, usize)]) -> (String, Vec<f64>) {
+    let Some(&(interface, point)) = worst.first() else { return (String::new(), Vec::new()) };
+    let model = &analysis.problem.model;
+    let interface = &model.interfaces[interface];
+    let position = interface.coupling.points[point].position;
+    (interface.name.clone(), position[..model.components].to_vec())
 }
 
 /// Tells energy that is lost at once in a part, where a traction drops, as a snap.

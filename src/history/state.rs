@@ -16,7 +16,7 @@ use super::energy::{across, elastic_energy, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
-use crate::law::{self, Law};
+use crate::law::{Law, Local, local};
 use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
 use crate::solver::NodalSolution;
@@ -55,7 +55,7 @@ impl ModelState {
     /// Before the first increment.
     pub(super) fn unloaded(problem: &Problem) -> ModelState {
         let u = vec![0.0; problem.model.dofs()];
-        let none = |interface: &InterfaceOperator| vec![[0.0; 2]; interface.coupling.points.len()];
+        let none = |interface: &InterfaceOperator| vec![Local::zeros(); interface.coupling.points.len()];
         let snapshot = Snapshot {
             u: u.clone(),
             jumps: problem.model.interfaces.iter().map(none).collect(),
@@ -165,19 +165,19 @@ impl ModelState {
             let BoundInterface { law, initial, states: starts, .. } = bound;
             let area = |p: usize| model.thickness * interface.coupling.points[p].weight;
             if let Law::Elastic(_) = law {
-                let d = law.elastic_stiffness();
+                let d = Local::from(law.elastic_stiffness());
                 if !self.found[k] {
                     self.snapshot.jumps[k] =
-                        interface.jumps(u).chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                        interface.jumps(u).chunks_exact(model.components).map(local).collect();
                 }
                 let jumps = &self.snapshot.jumps[k];
-                let traction = |(p, r): (usize, &[f64; 2])| [0, 1].map(|i| d[i] * r[i] + initial.at(p)[i]);
+                let traction = |(p, r): (usize, &Local)| d.component_mul(r) + initial.at(p);
                 self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
                 if !self.is_complete() {
                     continue; // the ledger has the energy of elastic interfaces
                 }
                 for (p, r) in jumps.iter().enumerate() {
-                    let energy: f64 = (0..2).map(|i| (0.5 * d[i] * r[i] + initial.at(p)[i]) * r[i]).sum();
+                    let energy = ((0.5 * d).component_mul(r) + initial.at(p)).dot(r);
                     self.stored += area(p) * energy;
                 }
             } else {
@@ -185,8 +185,7 @@ impl ModelState {
                 for (p, (state, start)) in states.iter().zip(starts).enumerate() {
                     self.stored += area(p) * (elastic_energy(law, state) - elastic_energy(law, start));
                 }
-                let traction = |state: &law::State| [state.traction.x, state.traction.y];
-                self.snapshot.tractions.push(states.iter().map(traction).collect());
+                self.snapshot.tractions.push(states.iter().map(|state| state.traction).collect());
             }
         }
         let energies = [self.work, self.stored, self.dissipated, self.released].map(f64::abs);

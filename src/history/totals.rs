@@ -65,8 +65,8 @@ pub struct Snap {
     pub between: [f64; 2],
     /// Interface that takes most of it.
     pub interface: String,
-    /// Law point there that takes most of it.
-    pub at: [f64; 2],
+    /// Law point there that takes most of it: as many coordinates as the model has.
+    pub at: Vec<f64>,
     /// Energy released [force × length].
     pub released: f64,
 }
@@ -83,12 +83,13 @@ impl Totals {
     /// Warnings of how the increments went.
     pub fn warnings(&self, path_tolerance: f64) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        if let Some(Snap { step, load_factor, interface, at: [x, y], .. }) = self.snaps.first() {
+        if let Some(Snap { step, load_factor, interface, at, .. }) = self.snaps.first() {
+            let at = at.iter().map(|x| format!("{x:.4}")).collect::<Vec<_>>().join(", ");
             let (count, released) = (self.snaps.len(), self.released);
             let times = if count == 1 { "once".to_string() } else { format!("{count} times") };
             let what = format!(
                 "step \"{step}\": snapped to another branch {times}, first at load factor {load_factor:.6} by {interface} \
-                 at ({x:.4}, {y:.4}); {released:.3e} of energy released in all"
+                 at ({at}); {released:.3e} of energy released in all"
             );
             let help = "\"control\": \"auto\" follows the path between; where it snaps too, more edges over the cohesive zone";
             warnings.push(Warning::new(Code::Snapped, what, help));
@@ -129,7 +130,7 @@ impl Totals {
             );
             warnings.push(Warning::new(Code::Unheld, what, "a support, if it should not float"));
         }
-        for Beyond { interface, opens, increment, jump, edges, at: [x, y] } in &self.beyond {
+        for Beyond { interface, opens, increment, jump, edges, at: [x, y, _] } in &self.beyond {
             let kind = if *opens { "opening" } else { "slip" };
             let what = format!(
                 "interface {interface}: {kind} of {jump:.3e} is {edges:.1} edges near ({x:.4}, {y:.4}), more than one from increment \

@@ -3,9 +3,8 @@
 //! A prescribed jump is taken as it is. A prescribed traction is an equation for its component of the jump: Newton
 //! with the law's own stiffness, kept between the last jumps that gave too little and too much.
 
-use nalgebra::{Matrix2, Vector2};
-
-use super::{Integration, Law, Response, State};
+use super::local::{Local, LocalMatrix, N, T};
+use super::{Integration, Law, OWN, Response, State};
 
 /// Prescribed value of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,21 +36,21 @@ pub(super) fn balance(
 ) -> Result<State, String> {
     let respond = |jump| law.respond(jump, old, integration).map_err(|unresolved| unresolved.to_string());
     match targets {
-        [Prescribed::Jump(n), Prescribed::Jump(t)] => Ok(respond(Vector2::new(n, t))?.state),
+        [Prescribed::Jump(n), Prescribed::Jump(t)] => Ok(respond(Local::new(n, t, 0.0))?.state),
         [Prescribed::Traction(sigma), Prescribed::Traction(tau)] => {
-            both(law, old, Vector2::new(sigma, tau), respond)
+            both(law, old, Local::new(sigma, tau, 0.0), respond)
         }
         [Prescribed::Traction(sigma), Prescribed::Jump(t)] => {
-            one(law, old, 0, sigma, |x| respond(Vector2::new(x, t)))
+            one(law, old, N, sigma, |x| respond(Local::new(x, t, 0.0)))
         }
         [Prescribed::Jump(n), Prescribed::Traction(tau)] => {
-            one(law, old, 1, tau, |x| respond(Vector2::new(n, x)))
+            one(law, old, T, tau, |x| respond(Local::new(n, x, 0.0)))
         }
     }
 }
 
 fn strength(law: &Law, old: &State) -> f64 {
-    law.strength(&State { fracture_work: 0.0, ..*old })
+    law.strength(&State { own: [0.0; OWN], ..*old })
         .map_or(0.0, |strength| strength.cohesion.max(strength.tensile_strength))
 }
 
@@ -115,20 +114,20 @@ fn one(
 fn both(
     law: &Law,
     old: &State,
-    target: Vector2<f64>,
-    respond: impl Fn(Vector2<f64>) -> Result<Response, String>,
+    target: Local,
+    respond: impl Fn(Local) -> Result<Response, String>,
 ) -> Result<State, String> {
     let scale = target.amax().max(old.traction.amax()).max(strength(law, old));
-    let [kn, kt] = law.elastic_stiffness();
+    let k = Local::from(law.elastic_stiffness());
     let elastic = target - old.traction;
-    let mut jump = old.jump + Vector2::new(elastic.x / kn, elastic.y / kt);
+    let mut jump = old.jump + elastic.component_div(&k);
     let mut response = respond(jump)?;
     for _ in 0..ITERATIONS {
         let over = response.traction - target;
         if over.amax() <= MET * scale {
             return Ok(response.state);
         }
-        let Some(inverse): Option<Matrix2<f64>> = response.stiffness.try_inverse() else { break };
+        let Some(inverse): Option<LocalMatrix> = response.stiffness.try_inverse() else { break };
         let correction = inverse * over;
         let mut part = 1.0;
         let better = (0..HALVINGS).find_map(|_| {

@@ -1,10 +1,10 @@
-//! Linear springs: t = D r + t₀, D = diag(K_N, K_T) (paper eq. 10). No state, no history.
+//! Linear springs: t = D r + t₀, D = diag(K_N, K_T, K_T) (paper eq. 10). No state, no history.
 
-use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, not_negative};
+use super::local::{Local, diagonal};
 use super::{Response, State};
 
 /// Parameters of the elastic law.
@@ -18,13 +18,11 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    /// The traction (n, t) at a jump (n, t), with the initial traction t₀.
+    /// The traction at a jump, with the initial traction t₀.
     #[inline]
-    pub fn traction(&self, jump: Vector2<f64>, initial: Vector2<f64>) -> Vector2<f64> {
-        Vector2::new(
-            self.normal_stiffness * jump.x + initial.x,
-            self.tangential_stiffness * jump.y + initial.y,
-        )
+    pub fn traction(&self, jump: Local, initial: Local) -> Local {
+        let (kn, kt) = (self.normal_stiffness, self.tangential_stiffness);
+        Local::new(kn * jump.x + initial.x, kt * jump.y + initial.y, kt * jump.z + initial.z)
     }
 
     /// Both stiffnesses must be finite and not negative; zero leaves that direction free.
@@ -35,14 +33,14 @@ impl Elastic {
 
     /// The answer in the form all laws share: the old traction is carried, so t₀ needs no place of its own.
     #[inline]
-    pub(super) fn respond(&self, jump: Vector2<f64>, old: &State) -> Response {
+    pub(super) fn respond(&self, jump: Local, old: &State) -> Response {
         let traction = self.traction(jump - old.jump, old.traction);
         Response {
             traction,
-            stiffness: Matrix2::new(self.normal_stiffness, 0.0, 0.0, self.tangential_stiffness),
+            stiffness: diagonal(self.normal_stiffness, self.tangential_stiffness),
             state: State { jump, traction, ..*old },
             dissipation: 0.0,
-            dissipation_gradient: Vector2::zeros(),
+            dissipation_gradient: Local::zeros(),
             released: 0.0,
         }
     }

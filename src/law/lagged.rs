@@ -9,9 +9,9 @@
 //! a step is contact and a given limit, which is monotone. Steps get small, so what the lag changes goes away with them, and
 //! what is stored is an equilibrium of the law itself. Frictional contact (`coulomb`) lags alike.
 
-use nalgebra::{Matrix2, Vector2};
-
 use super::coulomb::OPEN;
+use super::cracking::WORK;
+use super::local::{Local, LocalMatrix, N, S, T, across, diagonal, direction, shear};
 use super::{Coulomb, Cracking, Integration, Law, Response, State, Unresolved};
 
 /// Part of G_I that counts as all of it.
@@ -25,7 +25,7 @@ impl Law {
     /// elsewhere. Dilatancy lags alike.
     pub fn respond_lagged(
         &self,
-        jump: Vector2<f64>,
+        jump: Local,
         old: &State,
         integration: Integration,
         all: bool,
@@ -33,13 +33,13 @@ impl Law {
         match self {
             Law::Cracking(law) if all && (old.traction.x < 0.0 || !law.is_spent(old, SPENT)) => {
                 let answer = law.respond_on_facet(jump, old);
-                Ok(match answer.traction.x >= 0.0 && law.is_spent(old, SPENT) {
+                Ok(match answer.traction[N] >= 0.0 && law.is_spent(old, SPENT) {
                     true => parted(law.tangential_stiffness, answer),
                     false => answer,
                 })
             }
             Law::Cracking(law) if law.is_spent(old, SPENT) && (all || law.dilatancy_stress == 0.0) => {
-                let own = law.respond(Vector2::new(old.jump.x, jump.y), old, integration)?;
+                let own = law.respond(Local::new(old.jump[N], jump[T], jump[S]), old, integration)?;
                 let parted = old.jump_plastic.x.max(jump.x);
                 Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted))
             }
@@ -55,38 +55,43 @@ impl Law {
 
 /// An answer at no normal traction: what is left of the shear pushes in this step and is lost with it.
 fn parted(kt: f64, mut answer: Response) -> Response {
-    let tau = answer.traction.y;
-    answer.released = 0.5 * tau * tau / kt;
-    answer.state.traction.y = 0.0;
-    answer.state.jump_plastic.y += tau / kt;
+    let tau = tangential(answer.traction);
+    answer.released = 0.5 * tau.norm_squared() / kt;
+    answer.state.traction -= tau;
+    answer.state.jump_plastic += tau / kt;
     answer.state.status = FREE;
     answer
+}
+
+/// (0, t, s) of a vector.
+fn tangential(v: Local) -> Local {
+    Local::new(0.0, v[T], v[S])
 }
 
 impl Cracking {
     /// This part of the tensile strength's energy is spent, or there is none.
     fn is_spent(&self, old: &State, part: f64) -> bool {
-        self.tensile_strength == 0.0 || old.fracture_work >= part * self.fracture_energy_i
+        self.tensile_strength == 0.0 || old.own[WORK] >= part * self.fracture_energy_i
     }
 }
 
 impl Coulomb {
     /// The shear that the normal traction of the old state allows.
-    fn at_limit(&self, jump: Vector2<f64>, old: &State) -> Response {
+    fn at_limit(&self, jump: Local, old: &State) -> Response {
         let kt = self.tangential_stiffness;
-        let trial = kt * (jump.y - old.jump_plastic.y);
-        let limit = self.cohesion - self.friction_coefficient * old.traction.x;
-        let slides = trial.abs() > limit;
-        let tau = trial.clamp(-limit, limit);
-        let d = Matrix2::new(0.0, 0.0, 0.0, if slides { 0.0 } else { kt });
-        let spent = limit * (trial - tau).abs() / kt;
-        let gradient = Vector2::new(0.0, if slides { tau } else { 0.0 });
+        let trial = tangential(jump - old.jump_plastic) * kt;
+        let limit = self.cohesion - self.friction_coefficient * old.traction[N];
+        let (size, e) = (shear(&trial), direction(&trial));
+        let slides = size > limit;
+        let tau = if slides { e * limit } else { trial };
+        let d = if slides { across(&e) * (limit / size * kt) } else { diagonal(0.0, kt) };
+        let spent = limit * (size - shear(&tau)).abs() / kt;
         Response {
-            traction: Vector2::new(0.0, tau),
+            traction: tau,
             stiffness: d,
             state: *old,
             dissipation: spent,
-            dissipation_gradient: gradient,
+            dissipation_gradient: if slides { tau } else { Local::zeros() },
             released: 0.0,
         }
     }
@@ -94,33 +99,38 @@ impl Coulomb {
 
 /// The lagged answer from the shear part of another; `parted`: irreversible opening of a point that is open.
 fn lagged(
-    [kn, kt]: [f64; 2],
-    jump: Vector2<f64>,
+    [kn, kt, _]: [f64; 3],
+    jump: Local,
     old: &State,
     own: &Response,
     was_closed: bool,
     parted: f64,
 ) -> Response {
-    let sigma = (kn * (jump.x - old.jump_plastic.x)).min(0.0);
+    let sigma = (kn * (jump[N] - old.jump_plastic[N])).min(0.0);
     let closed = sigma < 0.0;
-    let tau = if was_closed { own.traction.y } else { 0.0 };
     let keep = |value: f64| if was_closed { value } else { 0.0 };
-    let (kept_tau, released) = if closed { (tau, 0.0) } else { (0.0, 0.5 * tau * tau / kt) };
-    let dilated = keep((own.state.jump_plastic.x - old.jump_plastic.x).max(0.0));
-    let opened = if closed { old.jump_plastic.x + dilated } else { parted };
-    let kept_sigma = if closed { (kn * (jump.x - opened)).min(0.0) } else { 0.0 };
+    let tau = if was_closed { tangential(own.traction) } else { Local::zeros() };
+    let (kept_tau, released) =
+        if closed { (tau, 0.0) } else { (Local::zeros(), 0.5 * tau.norm_squared() / kt) };
+    let dilated = keep((own.state.jump_plastic[N] - old.jump_plastic[N]).max(0.0));
+    let opened = if closed { old.jump_plastic[N] + dilated } else { parted };
+    let kept_sigma = if closed { (kn * (jump[N] - opened)).min(0.0) } else { 0.0 };
+    let mut stiffness = if was_closed { own.stiffness } else { LocalMatrix::zeros() };
+    stiffness.row_mut(N).fill(0.0);
+    stiffness.column_mut(N).fill(0.0);
+    stiffness[(N, N)] = if closed { kn } else { 0.0 };
     Response {
-        traction: Vector2::new(sigma, tau),
-        stiffness: Matrix2::new(if closed { kn } else { 0.0 }, 0.0, 0.0, keep(own.stiffness.m22)),
+        traction: tau + Local::x() * sigma,
+        stiffness,
         state: State {
             jump,
-            traction: Vector2::new(kept_sigma, kept_tau),
-            jump_plastic: Vector2::new(opened, jump.y - kept_tau / kt),
-            fracture_work: if was_closed { own.state.fracture_work } else { old.fracture_work },
+            traction: kept_tau + Local::x() * kept_sigma,
+            jump_plastic: tangential(jump - kept_tau / kt) + Local::x() * opened,
+            own: if was_closed { own.state.own } else { old.own },
             status: if closed { SLIPS } else { FREE },
         },
         dissipation: keep(own.dissipation),
-        dissipation_gradient: Vector2::new(0.0, keep(own.dissipation_gradient.y)),
+        dissipation_gradient: tangential(own.dissipation_gradient) * keep(1.0),
         released,
     }
 }

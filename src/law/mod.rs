@@ -9,25 +9,23 @@ mod coulomb;
 mod cracking;
 mod elastic;
 mod lagged;
+mod local;
 pub mod path;
+mod variable;
 
 pub use admissible::Inadmissible;
 pub use coulomb::Coulomb;
-pub use cracking::{Cracking, Strength};
+pub use cracking::{Cracking, Strength, WORK};
 pub use elastic::Elastic;
+pub use local::{Local, LocalMatrix, N, S, T, diagonal_rows, local, write_diagonal, write_rows};
+pub use variable::{OWN, Variable, variables};
 
-use nalgebra::{Matrix2, Vector2};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use admissible::{error_at, not_negative};
 
 use crate::error::Warning;
-
-/// Index of the normal component of a jump or traction.
-pub const N: usize = 0;
-/// Index of the tangential component of a jump or traction.
-pub const T: usize = 1;
 
 /// Relative tolerance of the laws' integration when the scene names none.
 pub const LAW_TOLERANCE: f64 = 1e-4;
@@ -60,14 +58,14 @@ pub enum Integration {
 /// State of a law point from one increment to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct State {
-    /// Jump (n, t) at the last accepted increment [length].
-    pub jump: Vector2<f64>,
-    /// Traction (n, t) at that jump [stress].
-    pub traction: Vector2<f64>,
-    /// Irreversible jump (n, t) [length]: the jump at which the point carries nothing.
-    pub jump_plastic: Vector2<f64>,
-    /// Work spent on fracture W [stress × length].
-    pub fracture_work: f64,
+    /// Jump at the last accepted increment [length].
+    pub jump: Local,
+    /// Traction at that jump [stress].
+    pub traction: Local,
+    /// Irreversible jump [length]: the jump at which the point carries nothing.
+    pub jump_plastic: Local,
+    /// Variables of the law itself, each at its place (`Law::variables`); zero where the law has none.
+    pub own: [f64; OWN],
     /// 0 elastic or stick, 1 T, 2 C or slip, 3 Z, 4 A or open.
     pub status: u8,
 }
@@ -75,16 +73,16 @@ pub struct State {
 /// Response of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {
-    /// Traction (n, t) [stress].
-    pub traction: Vector2<f64>,
-    /// ∂traction/∂jump, rows and columns (n, t) [stress / length]; unsymmetric in general.
-    pub stiffness: Matrix2<f64>,
+    /// Traction [stress].
+    pub traction: Local,
+    /// ∂traction/∂jump, rows and columns (n, t, s) [stress / length]; unsymmetric in general.
+    pub stiffness: LocalMatrix,
     /// State at the end of the increment.
     pub state: State,
     /// Energy dissipated in the increment per area, ∫ t·dr^p, friction included [stress × length].
     pub dissipation: f64,
-    /// ∂dissipation/∂jump (n, t) [stress].
-    pub dissipation_gradient: Vector2<f64>,
+    /// ∂dissipation/∂jump [stress].
+    pub dissipation_gradient: Local,
     /// Energy per area lost at once by a drop of the traction within the increment, not part of the dissipation
     /// [stress × length]; the cohesion of `coulomb` faces that part, zero for the other laws.
     pub released: f64,
@@ -94,16 +92,19 @@ pub struct Response {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Unresolved {
     /// The jump is not a number.
-    #[error("the jump ({}, {}) is not finite", jump.x, jump.y)]
+    #[error("the jump ({}) is not finite", listed(jump))]
     NotFinite {
         /// The jump that was asked for.
-        jump: Vector2<f64>,
+        jump: Local,
     },
     /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
-    #[error("the traction snaps near jump ({:e}, {:e}): the interface stiffness is too low for its fracture energies", jump.x, jump.y)]
+    #[error(
+        "the traction snaps near jump ({}): the interface stiffness is too low for its fracture energies",
+        listed(jump)
+    )]
     SnapBack {
         /// Fraction of the way at which the traction snaps.
-        jump: Vector2<f64>,
+        jump: Local,
     },
 }
 
@@ -125,12 +126,21 @@ impl Law {
         }
     }
 
-    /// Normal and tangential elastic stiffness K_N, K_T [stress / length].
-    pub fn elastic_stiffness(&self) -> [f64; 2] {
-        match self {
+    /// Elastic stiffnesses of the components, K_N, K_T, K_T [stress / length].
+    pub fn elastic_stiffness(&self) -> [f64; 3] {
+        let [kn, kt] = match self {
             Law::Elastic(law) => [law.normal_stiffness, law.tangential_stiffness],
             Law::Coulomb(law) => [law.normal_stiffness, law.tangential_stiffness],
             Law::Cracking(law) => [law.normal_stiffness, law.tangential_stiffness],
+        };
+        [kn, kt, kt]
+    }
+
+    /// What the law knows of a point beyond jump and traction.
+    pub fn variables(&self) -> &'static [Variable] {
+        match self {
+            Law::Elastic(_) | Law::Coulomb(_) => &[],
+            Law::Cracking(_) => &cracking::VARIABLES,
         }
     }
 
@@ -149,25 +159,21 @@ impl Law {
 
     /// Fraction of a straight way to a jump at which a point of a softening law that is inside its surface reaches it; none if
     /// it does not, or is on it already.
-    pub fn onset(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+    pub fn onset(&self, jump: Local, old: &State) -> Option<f64> {
         self.onset_or_on(jump, old).filter(|fraction| *fraction > 0.0)
     }
 
     /// The same, 0 for a point that is on its surface.
-    pub fn onset_or_on(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
+    pub fn onset_or_on(&self, jump: Local, old: &State) -> Option<f64> {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => None,
             Law::Cracking(law) => law.onset(jump, old),
         }
     }
 
-    /// The state before the first increment: jump 0 under the traction t₀ (n, t) (paper eq. 10), or, for `coulomb`,
+    /// The state before the first increment: jump 0 under the traction t₀ (paper eq. 10), or, for `coulomb`,
     /// faces that are `initial_gap` apart, or pressed by an overlap where that is negative.
-    pub fn initial_state(
-        &self,
-        initial_traction: Vector2<f64>,
-        initial_gap: f64,
-    ) -> Result<State, Inadmissible> {
+    pub fn initial_state(&self, initial_traction: Local, initial_gap: f64) -> Result<State, Inadmissible> {
         if !initial_traction.iter().all(|component| component.is_finite()) {
             return error_at("initial_traction", "initial_traction is not finite", "give two numbers [n, t]");
         }
@@ -180,23 +186,25 @@ impl Law {
             Law::Cracking(law) => law.excess(initial_traction) - ON_SURFACE * law.cohesion,
         };
         if outside > ON_SURFACE * initial_traction.amax() {
-            let (sigma, tau) = (initial_traction.x, initial_traction.y);
             return error_at(
                 "initial_traction",
-                format!("initial_traction [{sigma}, {tau}] lies outside the strength by {outside:.3e}"),
+                format!(
+                    "initial_traction [{}] lies outside the strength by {outside:.3e}",
+                    listed(&initial_traction)
+                ),
                 "give a traction that the intact interface can carry",
             );
         }
         if initial_gap != 0.0 && !matches!(self, Law::Coulomb(_)) {
             return error_at("initial_gap", "initial_gap is for coulomb only", "remove it or use that law");
         }
-        if initial_gap != 0.0 && initial_traction != Vector2::zeros() {
+        if initial_gap != 0.0 && initial_traction != Local::zeros() {
             let what = "an open gap carries no initial_traction, and an overlap has its own";
             return error_at("initial_gap", what, "give one of the two");
         }
         let stiffness = self.elastic_stiffness();
-        let pressed = Vector2::new((stiffness[0] * initial_gap).min(0.0), 0.0);
-        let mut jump_plastic = Vector2::new(-initial_gap, 0.0);
+        let pressed = Local::new((stiffness[N] * initial_gap).min(0.0), 0.0, 0.0);
+        let mut jump_plastic = Local::new(-initial_gap, 0.0, 0.0);
         for (i, stiffness) in stiffness.into_iter().enumerate() {
             if stiffness > 0.0 {
                 jump_plastic[i] -= initial_traction[i] / stiffness; // no stiffness: the elastic law carries t₀ alone
@@ -205,36 +213,33 @@ impl Law {
         Ok(State { traction: initial_traction + pressed, jump_plastic, ..State::default() })
     }
 
-    /// The state at a given jump, irreversible jump and fracture work; `Err` if the law cannot carry it.
-    pub fn state_at(
-        &self,
-        jump: Vector2<f64>,
-        jump_plastic: Vector2<f64>,
-        fracture_work: f64,
-    ) -> Result<State, Inadmissible> {
-        let [kn, kt] = self.elastic_stiffness();
+    /// The state at a given jump, irreversible jump and variables of its own; `Err` if the law cannot carry it.
+    pub fn state_at(&self, jump: Local, jump_plastic: Local, own: [f64; OWN]) -> Result<State, Inadmissible> {
+        let k = Local::from(self.elastic_stiffness());
         let elastic = jump - jump_plastic;
-        let mut traction = Vector2::new(kn * elastic.x, kt * elastic.y);
-        not_negative("initial", fracture_work)?;
-        let rounding = ON_SURFACE * (traction.amax() + kn * jump.x.abs() + kt * jump.y.abs());
+        let mut traction = k.component_mul(&elastic);
+        for variable in self.variables() {
+            not_negative("initial", own[variable.place])?;
+        }
+        let rounding = ON_SURFACE * (traction.amax() + k.component_mul(&jump).abs().sum());
         let excess = match self {
             Law::Elastic(_) => f64::NEG_INFINITY,
             Law::Coulomb(law) => {
-                if elastic.x > 0.0 {
-                    traction = Vector2::zeros();
+                if elastic[N] > 0.0 {
+                    traction = Local::zeros();
                 }
                 law.excess(traction)
             }
-            Law::Cracking(law) => law.excess_at(traction, fracture_work) - ON_SURFACE * law.cohesion,
+            Law::Cracking(law) => law.excess_at(traction, own[WORK]) - ON_SURFACE * law.cohesion,
         };
         if !jump.iter().chain(&jump_plastic).all(|component| component.is_finite()) || excess > rounding {
             return error_at(
                 "initial",
-                format!("the traction [{}, {}] of the initial state is outside", traction.x, traction.y),
+                format!("the traction [{}] of the initial state is outside", listed(&traction)),
                 "give a state that the law can carry",
             );
         }
-        Ok(State { jump, traction, jump_plastic, fracture_work, status: 0 })
+        Ok(State { jump, traction, jump_plastic, own, status: 0 })
     }
 
     /// Current strength (χ, c, tanφ) at a state; `None` for the elastic law, which has none.
@@ -246,19 +251,19 @@ impl Law {
                 cohesion: law.cohesion,
                 tan_friction: law.friction_coefficient,
             }),
-            Law::Cracking(law) => Some(law.strength(state.fracture_work)),
+            Law::Cracking(law) => Some(law.strength(state.own[WORK])),
         }
     }
 
-    /// The answer at a jump (n, t), reached in a straight line from the old state. Allocates nothing.
+    /// The answer at a jump, reached in a straight line from the old state. Allocates nothing.
     #[inline]
     pub fn respond(
         &self,
-        jump: Vector2<f64>,
+        jump: Local,
         old: &State,
         integration: Integration,
     ) -> Result<Response, Unresolved> {
-        if !(jump.x.is_finite() && jump.y.is_finite()) {
+        if !jump.iter().all(|component| component.is_finite()) {
             return Err(Unresolved::NotFinite { jump });
         }
         match self {
@@ -267,4 +272,10 @@ impl Law {
             Law::Cracking(law) => law.respond(jump, old, integration),
         }
     }
+}
+
+/// The components of a local vector for a message: two in the plane.
+fn listed(v: &Local) -> String {
+    let shown = if v[S] == 0.0 { &v.as_slice()[..S] } else { v.as_slice() };
+    shown.iter().map(|component| format!("{component:?}")).collect::<Vec<_>>().join(", ")
 }

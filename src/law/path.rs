@@ -12,11 +12,12 @@
 
 use std::io::{self, Write};
 
-use nalgebra::Vector2;
 use serde::Deserialize;
 
 use super::balance::{Prescribed, balance};
-use super::{Integration, Law, State, Strength};
+use super::cracking::WORK;
+use super::local::Local;
+use super::{Integration, Law, OWN, State, Strength};
 
 /// A path as read from its file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -135,8 +136,13 @@ pub fn drive(
     let mut state = match &path.initial {
         None => *start,
         Some(Initial { u_n, u_t, up_n, up_t, work }) => {
-            law.state_at(Vector2::new(*u_n, *u_t), Vector2::new(*up_n, *up_t), *work).map_err(|refused| {
-                PathError::Program { key: "initial".into(), what: refused.what, help: refused.help }
+            let mut own = [0.0; OWN];
+            own[WORK] = *work;
+            let (jump, plastic) = (Local::new(*u_n, *u_t, 0.0), Local::new(*up_n, *up_t, 0.0));
+            law.state_at(jump, plastic, own).map_err(|refused| PathError::Program {
+                key: "initial".into(),
+                what: refused.what,
+                help: refused.help,
             })?
         }
     };
@@ -162,7 +168,7 @@ pub fn write_csv(rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
     writeln!(out, "{COLUMNS}")?;
     for PathRow { s, state, strength } in rows {
         write!(out, "{s},{:e},{:e}", state.jump.x, state.jump.y)?;
-        write!(out, ",{:e},{:e},{:e}", state.traction.x, state.traction.y, state.fracture_work)?;
+        write!(out, ",{:e},{:e},{:e}", state.traction.x, state.traction.y, state.own[WORK])?;
         write!(out, ",{:e},{:e}", state.jump_plastic.x, state.jump_plastic.y)?;
         match strength {
             Some(Strength { tensile_strength, cohesion, tan_friction }) => {

@@ -5,7 +5,7 @@ use super::vtu::{Array, Data, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
-use crate::law;
+use crate::law::{self, Local, State};
 
 /// A body: displacement, stress at points and cells, principal stress.
 pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
@@ -16,7 +16,11 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
     let mut grid = mesh(subdomain);
     grid.time = time;
     grid.point_data = vec![
-        Array::float("displacement", 3, u.chunks_exact(2).flat_map(|u| [u[0], u[1], 0.0])),
+        Array::float(
+            "displacement",
+            3,
+            u.chunks_exact(model.components).flat_map(|u| <[f64; 3]>::from(law::local(u))),
+        ),
         Array::float("stress", 6, stresses.nodes.iter().flat_map(full)),
     ];
     grid.cell_data = vec![
@@ -29,7 +33,7 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
 pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
     let cells = &subdomain.mesh.cells;
     VtuGrid {
-        points: subdomain.mesh.points.iter().flat_map(|p| [p[0], p[1], 0.0]).collect(),
+        points: subdomain.mesh.points.as_flattened().to_vec(),
         connectivity: cells.nodes.iter().map(|&node| node as i64).collect(),
         offsets: cells.offsets[1..].iter().map(|&end| end as i64).collect(),
         types: cells.shapes.iter().map(|shape| shape.vtk()).collect(),
@@ -60,26 +64,33 @@ pub(super) fn interface(
     let of = |s: f64| breaks.partition_point(|start| *start <= s);
     let lines: Vec<i64> =
         (1..n).filter(|&i| of(points[i - 1].s) == of(points[i].s)).map(|i| i as i64).collect();
-    let none = vec![law::State::default(); n];
+    let none = vec![State::default(); n];
     let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
+    let plastic: Vec<Local> = states.iter().map(|state| state.jump_plastic).collect();
+    let local = |name, vectors: &[Local]| {
+        let components = interface.coupling.components;
+        let values = vectors.iter().flat_map(|v| v.iter().take(components).copied());
+        Array::float(name, components, values)
+    };
+    let own = law::variables()
+        .map(|variable| Array::float(variable.name, 1, states.iter().map(|state| variable.of(state))));
+    let mut point_data = vec![
+        local("jump", &snapshot.jumps[index]),
+        local("jump_plastic", &plastic),
+        local("traction", &snapshot.tractions[index]),
+    ];
+    point_data.extend(own);
+    point_data.extend([
+        Array::int("status", states.iter().map(|state| i64::from(state.status))),
+        Array::float("length", 1, points.iter().map(|p| p.weight)),
+        Array::float("normal", 3, points.iter().flat_map(|p| p.rotation[0])),
+    ]);
     VtuGrid {
         points: points.iter().flat_map(|p| p.position).collect(),
         connectivity: lines.iter().flat_map(|&i| [i - 1, i]).collect(),
         offsets: (1..=lines.len() as i64).map(|i| 2 * i).collect(),
         types: vec![3; lines.len()],
-        point_data: vec![
-            Array::float("jump", 2, snapshot.jumps[index].iter().flatten().copied()),
-            Array::float(
-                "jump_plastic",
-                2,
-                states.iter().flat_map(|state| [state.jump_plastic.x, state.jump_plastic.y]),
-            ),
-            Array::float("traction", 2, snapshot.tractions[index].iter().flatten().copied()),
-            Array::float("fracture_work", 1, states.iter().map(|state| state.fracture_work)),
-            Array::int("status", states.iter().map(|state| i64::from(state.status))),
-            Array::float("length", 1, points.iter().map(|p| p.weight)),
-            Array::float("normal", 3, points.iter().flat_map(|p| p.rotation[0])),
-        ],
+        point_data,
         time,
         ..VtuGrid::default()
     }

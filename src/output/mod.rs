@@ -17,7 +17,7 @@ pub use writer::{HistoryRow, Writer};
 use serde::{Deserialize, Serialize};
 
 use crate::continuum::Stresses;
-use crate::law;
+use crate::law::{self, Local};
 
 /// One state of the model, as it is written.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -26,10 +26,10 @@ pub struct Snapshot {
     pub u: Vec<f64>,
     /// Stresses of every body.
     pub stresses: Vec<Stresses>,
-    /// Jump (n, t) at the law points of every interface [length].
-    pub jumps: Vec<Vec<[f64; 2]>>,
-    /// Traction (n, t) at the law points of every interface [stress].
-    pub tractions: Vec<Vec<[f64; 2]>>,
+    /// Jump (n, t, s) at the law points of every interface [length].
+    pub jumps: Vec<Vec<Local>>,
+    /// Traction (n, t, s) at the law points of every interface [stress].
+    pub tractions: Vec<Vec<Local>>,
     /// State of the law points of every interface; empty for an elastic one.
     pub states: Vec<Vec<law::State>>,
 }

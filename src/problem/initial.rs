@@ -4,21 +4,21 @@ use super::Gaps;
 use super::quantity::Quantity;
 use crate::assembly::InterfaceOperator;
 use crate::error::Result;
-use crate::law::{self, Inadmissible, Law};
+use crate::law::{self, Inadmissible, Law, Local};
 use crate::scene::{self, FormulaPlace, Scene};
 
-/// Initial traction (n, t) of an interface [stress].
+/// Initial traction of an interface [stress].
 #[derive(Debug, Clone, PartialEq)]
 pub enum InitialTraction {
     /// The same at all law points.
-    Uniform([f64; 2]),
+    Uniform(Local),
     /// One for every law point.
-    Varying(Vec<[f64; 2]>),
+    Varying(Vec<Local>),
 }
 
 impl InitialTraction {
     /// Its value at a law point.
-    pub fn at(&self, point: usize) -> [f64; 2] {
+    pub fn at(&self, point: usize) -> Local {
         match self {
             InitialTraction::Uniform(traction) => *traction,
             InitialTraction::Varying(tractions) => tractions[point],
@@ -34,7 +34,7 @@ impl InitialTraction {
     ) -> Result<InitialTraction> {
         let [n, t] = &stated.initial_traction;
         if let (Some(n), Some(t)) = (n.constant(), t.constant()) {
-            return Ok(InitialTraction::Uniform([n, t]));
+            return Ok(InitialTraction::Uniform(Local::new(n, t, 0.0)));
         }
         let n = Quantity::new(scene, &["interfaces", name, "initial_traction", "0"], n);
         let t = Quantity::new(scene, &["interfaces", name, "initial_traction", "1"], t);
@@ -42,7 +42,7 @@ impl InitialTraction {
         let tractions = interface.coupling.points.iter().map(|point| {
             let [x, y, _] = point.position;
             let place = FormulaPlace { x, y, s: point.s / length, load_factor: 0.0 };
-            Ok([n.at(&place)?, t.at(&place)?])
+            Ok(Local::new(n.at(&place)?, t.at(&place)?, 0.0))
         });
         Ok(InitialTraction::Varying(tractions.collect::<Result<_>>()?))
     }
@@ -61,9 +61,9 @@ pub(super) fn states(
         return Ok(Vec::new());
     }
     let state = |point: usize| {
-        law.initial_state(initial.at(point).into(), gaps.at(point)).map_err(
-            |Inadmissible { key, what, help }| scene.source.error_at(&["interfaces", name, key], what, help),
-        )
+        law.initial_state(initial.at(point), gaps.at(point)).map_err(|Inadmissible { key, what, help }| {
+            scene.source.error_at(&["interfaces", name, key], what, help)
+        })
     };
     (0..interface.coupling.points.len()).map(state).collect()
 }

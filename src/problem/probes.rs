@@ -3,7 +3,7 @@
 use super::groups;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::{Result, name_help};
-use crate::law;
+use crate::law::{self, Local};
 use crate::scene::Scene;
 use crate::scene::probe::{JointField, Probe};
 
@@ -43,10 +43,10 @@ pub enum BoundProbe {
 pub struct ProbeInput<'a> {
     /// Displacements.
     pub u: &'a [f64],
-    /// Jump (n, t) at the law points of every interface.
-    pub jumps: &'a [Vec<[f64; 2]>],
-    /// Traction (n, t) at the law points of every interface.
-    pub tractions: &'a [Vec<[f64; 2]>],
+    /// Jump at the law points of every interface.
+    pub jumps: &'a [Vec<Local>],
+    /// Traction at the law points of every interface.
+    pub tractions: &'a [Vec<Local>],
     /// State of the law points of every interface; empty for an elastic one.
     pub states: &'a [Vec<law::State>],
     /// Elastic energy.
@@ -123,8 +123,8 @@ impl BoundProbe {
                 let at = |p: usize| match *field {
                     JointField::Jump(c) => input.jumps[*interface][p][c],
                     JointField::Traction(c) => input.tractions[*interface][p][c],
-                    JointField::FractureWork => {
-                        input.states[*interface].get(p).map_or(0.0, |state| state.fracture_work)
+                    JointField::Variable(variable) => {
+                        input.states[*interface].get(p).map_or(0.0, |state| variable.of(state))
                     }
                 };
                 points.iter().filter(|(_, weight)| *weight != 0.0).map(|&(p, weight)| weight * at(p)).sum()

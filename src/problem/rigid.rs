@@ -124,7 +124,8 @@ pub(super) fn check_free_subdomains(
         let resists = law.elastic_stiffness().map(|k| share * (k * compliance).min(1.0));
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
-                let sum: f64 = (0..jump_i.len()).map(|k| resists[k % 2] * jump_i[k] * jump_j[k]).sum();
+                let sum: f64 =
+                    (0..jump_i.len()).map(|k| resists[k % model.components] * jump_i[k] * jump_j[k]).sum();
                 gram[(*i, *j)] += sum;
             }
         }

@@ -50,7 +50,7 @@ pub(super) fn is_stiff(
     model: &Model,
     interface: &InterfaceOperator,
 ) -> bool {
-    let [kn, kt] = stated.law.elastic_stiffness();
+    let [kn, kt, _] = stated.law.elastic_stiffness();
     jump_is_unknown(scene, stated) && kn.max(kt) * compliance(model, interface) > STIFF
 }
 
@@ -67,7 +67,7 @@ pub(super) fn check_precision(
     if number <= most {
         return Ok(());
     }
-    let [kn, _] = law.elastic_stiffness();
+    let [kn, ..] = law.elastic_stiffness();
     let largest = kn * ROUNDING_SEEN / (number * f64::EPSILON);
     let what = format!("K_N h/E = {number:.1e} is beyond double precision");
     let help = format!("take {largest:.0e} or less: stiffer springs change nothing but the rounding");

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use nalgebra::Vector2;
-
 use super::presets::read_scene;
 use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
-use crate::law::{Integration, Law, State};
+use crate::law::{Integration, Law, Local, State};
 
 /// Rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Vec<PathRow>, Option<Error>);
@@ -25,7 +23,7 @@ pub fn drive(
         let help = name_help(name, scene.interfaces.keys().map(String::as_str));
         return Err(scene.source.error_at(&["interfaces"], format!("no interface \"{name}\""), help));
     };
-    let mut initial = [0.0; 2];
+    let mut initial = Local::zeros();
     for (i, value) in interface.initial_traction.iter().enumerate() {
         let place = ["interfaces", name, "initial_traction", &i.to_string()];
         let what = format!("{value} depends on the place, and one point has none");
@@ -54,8 +52,8 @@ pub fn drive(
     }
 }
 
-fn start(law: &Law, initial_traction: [f64; 2]) -> std::result::Result<State, crate::law::Inadmissible> {
-    law.initial_state(Vector2::from(initial_traction), 0.0)
+fn start(law: &Law, initial_traction: Local) -> std::result::Result<State, crate::law::Inadmissible> {
+    law.initial_state(initial_traction, 0.0)
 }
 
 fn error_at(file: &Path, line: usize, key: &str, what: &str, help: &str) -> Error {

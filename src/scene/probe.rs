@@ -6,6 +6,7 @@
 
 use super::{Direction, JOINED, Scene};
 use crate::error::name_help;
+use crate::law::{self, Variable};
 
 /// A question to an increment.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,18 +51,23 @@ pub enum JointField {
     Jump(usize),
     /// Traction, component n or t [stress].
     Traction(usize),
-    /// Work spent on fracture [stress × length].
-    FractureWork,
+    /// A variable that a law has of its own.
+    Variable(&'static Variable),
 }
 
 const DISPLACEMENTS: [&str; 2] = ["displacement_x", "displacement_y"];
-const JOINT_FIELDS: [(&str, JointField); 5] = [
+const JOINT_FIELDS: [(&str, JointField); 4] = [
     ("jump_n", JointField::Jump(0)),
     ("jump_t", JointField::Jump(1)),
     ("traction_n", JointField::Traction(0)),
     ("traction_t", JointField::Traction(1)),
-    ("fracture_work", JointField::FractureWork),
 ];
+
+/// Fields along an interface by name: jump, traction, and what laws know beyond.
+fn joint_fields() -> impl Iterator<Item = (&'static str, JointField)> {
+    let own = law::variables().map(|variable| (variable.name, JointField::Variable(variable)));
+    JOINT_FIELDS.into_iter().chain(own)
+}
 
 impl Probe {
     /// Reads a probe; on failure (what is wrong, what would have been right).
@@ -129,8 +135,8 @@ fn interface(interface: &str, field: &str) -> std::result::Result<Probe, (String
     if let (Some(component), None) = (component, fraction) {
         return Ok(Probe::Resultant { interface: interface.into(), component });
     }
-    let Some(&(_, field)) = JOINT_FIELDS.iter().find(|(known, _)| *known == name) else {
-        let names = JOINT_FIELDS.iter().map(|(name, _)| *name).chain(["resultant_n", "resultant_t"]);
+    let Some((_, field)) = joint_fields().find(|(known, _)| *known == name) else {
+        let names = joint_fields().map(|(name, _)| name).chain(["resultant_n", "resultant_t"]);
         return Err((format!("no field \"{name}\""), name_help(name, names)));
     };
     let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));

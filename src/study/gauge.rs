@@ -9,6 +9,7 @@ use indexmap::IndexMap;
 use super::file::{Field, Measure};
 use crate::assembly::Model;
 use crate::history::{ModelState, Totals};
+use crate::law::{Local, N, T};
 use crate::output::HistoryRow;
 use crate::problem::{Problem, stiffness_number};
 use crate::scene::{FormulaPlace, Value};
@@ -101,14 +102,14 @@ fn error(problem: &Problem, state: &ModelState, field: Field, of: &str, exact: &
 }
 
 /// Σ w |field − exact|² and Σ w |exact|² over the law points of an interface.
-fn on_interface(model: &Model, fields: &[Vec<[f64; 2]>], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
+fn on_interface(model: &Model, fields: &[Vec<Local>], of: &str, exact: &[Value; 2]) -> Option<[f64; 2]> {
     let k = model.interfaces.iter().position(|interface| interface.name == of)?;
     let coupling = &model.interfaces[k].coupling;
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
         let [x, y, _] = point.position;
         let place = FormulaPlace { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
-        add(&mut sums, point.weight, *field, exact, &place);
+        add(&mut sums, point.weight, [field[N], field[T]], exact, &place);
     }
     Some(sums)
 }

@@ -2,8 +2,7 @@
 #![allow(dead_code, missing_docs, clippy::unwrap_used)] // each test takes what it needs
 
 use midplane::law::path::{LawPath, PathRow, drive};
-use midplane::law::{Cracking, Integration, Law, State};
-use nalgebra::Vector2;
+use midplane::law::{Cracking, Integration, Law, Local, State, WORK};
 use serde_json::Value;
 
 /// Parameters of the paper's example 2 (§4.2) with the energies read as N/mm, in MPa and m.
@@ -94,7 +93,7 @@ impl Reference {
             let off = [
                 row.state.traction.x - stored("sigma"),
                 row.state.traction.y - stored("tau"),
-                (row.state.fracture_work - stored("W")) / energy,
+                (row.state.own[WORK] - stored("W")) / energy,
             ];
             errors = std::array::from_fn(|i| errors[i].max(off[i].abs()));
         }
@@ -124,9 +123,9 @@ impl Random {
         self.between(0.0, 1.0) < 0.5
     }
 
-    pub fn direction(&mut self) -> Vector2<f64> {
+    pub fn direction(&mut self) -> Local {
         let angle = self.between(0.0, std::f64::consts::TAU);
-        Vector2::new(angle.cos(), angle.sin())
+        Local::new(angle.cos(), angle.sin(), 0.0)
     }
 
     /// A cracking law without inadmissible or doubtful parameters, of the size of rock and concrete (MPa, m).

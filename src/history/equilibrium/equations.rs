@@ -11,6 +11,7 @@ use super::strategy::{Operations, choose, condensed_interfaces};
 use crate::assembly::{Pattern, Symmetric};
 use crate::error::Result;
 use crate::history::{Clock, memory};
+use crate::law::diagonal_rows;
 use crate::problem::Problem;
 use crate::scene::{Solution, Strategy, Tangent};
 use crate::solver::{
@@ -212,6 +213,6 @@ fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -
     let young = interface.subdomains.map(|subdomain| problem.model.subdomains[subdomain].elasticity.young);
     let soft = young[0].min(young[1]) * edges as f64 / coupling.midplane.length;
     let most = if condensed_interfaces.contains(&k) { soft } else { f64::INFINITY };
-    let [kn, kt] = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
-    [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
+    let k = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
+    diagonal_rows(&k[..coupling.components]).repeat(interface.coupling.points.len())
 }

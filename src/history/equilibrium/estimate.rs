@@ -15,7 +15,7 @@ use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
 use crate::history::converged::{Converged, PointResponse};
 use crate::history::loading::StepLoad;
-use crate::law;
+use crate::law::{self, Local};
 use crate::output::Snapshot;
 use crate::solver::{Affine, Form, ask, corrected};
 
@@ -24,12 +24,12 @@ const LINEAR: f64 = 1e-9;
 const DIGITS: f64 = 8.0 * f64::EPSILON;
 
 /// True if every point of an interface answers elastically, or is open throughout.
-fn is_straight([kn, kt]: [f64; 2], old: &law::State, answer: &PointResponse) -> bool {
+fn is_straight(k: [f64; 3], old: &law::State, answer: &PointResponse) -> bool {
     let new = &answer.state;
     if answer.dissipation != 0.0 || answer.released != 0.0 {
         return false;
     }
-    if old.traction == new.traction && old.traction.x == 0.0 && old.traction.y == 0.0 {
+    if old.traction == new.traction && old.traction == Local::zeros() {
         return true;
     }
     let differs = |i: usize, k: f64| {
@@ -37,7 +37,7 @@ fn is_straight([kn, kt]: [f64; 2], old: &law::State, answer: &PointResponse) -> 
         let rounding = DIGITS * k * (new.jump[i].abs() + old.jump[i].abs() + old.jump_plastic[i].abs());
         (change - elastic).abs() > LINEAR * elastic.abs() + rounding
     };
-    !(differs(0, kn) || differs(1, kt))
+    !k.into_iter().enumerate().any(|(i, k)| differs(i, k))
 }
 
 /// The estimate for what was found last under the load in the middle; none if the way there is straight.
@@ -131,11 +131,12 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
     let force = |&k: &usize| {
         let interface = &problem.model.interfaces[k];
         let states = &snapshot.states[k];
+        let leading = |v: Local| <[f64; 3]>::from(v).into_iter().take(problem.model.components);
         let tractions: Vec<f64> = if states.is_empty() {
-            let d = problem.interfaces[k].law.elastic_stiffness();
-            snapshot.jumps[k].iter().flat_map(|r| [d[0] * r[0], d[1] * r[1]]).collect()
+            let d = Local::from(problem.interfaces[k].law.elastic_stiffness());
+            snapshot.jumps[k].iter().flat_map(|r| leading(d.component_mul(r))).collect()
         } else {
-            states.iter().flat_map(|state| [state.traction.x, state.traction.y]).collect()
+            states.iter().flat_map(|state| leading(state.traction)).collect()
         };
         interface.gather(&tractions)
     };

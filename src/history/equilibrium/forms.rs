@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Make;
 use super::newton::NewtonEngine;
 use crate::assembly::{Pattern, Symmetric};
+use crate::law::diagonal_rows;
 use crate::problem::Problem;
 use crate::solver::{Base, Condensation, Condensed, Continuum, FloatingSubdomains, NewtonSettings, Primal};
 
@@ -47,8 +48,8 @@ pub(super) fn condensed<'a>(
     let size: usize = condensed_interfaces.iter().map(|&k| problem.model.interfaces[k].size()).sum();
     let intact: Vec<Vec<f64>> = (problem.laws().zip(&problem.model.interfaces))
         .map(|(law, interface)| {
-            let [kn, kt] = law.elastic_stiffness();
-            [kn, 0.0, 0.0, kt].repeat(interface.coupling.points.len())
+            let k = law.elastic_stiffness();
+            diagonal_rows(&k[..interface.coupling.components]).repeat(interface.coupling.points.len())
         })
         .collect();
     let mut base = bases(problem, continuum, stiffness);

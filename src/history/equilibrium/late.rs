@@ -5,7 +5,7 @@ use super::laws::Laws;
 use super::view::{ViewMut, target};
 use crate::history::converged::Converged;
 use crate::history::loading::StepLoad;
-use crate::law;
+use crate::law::{self, local};
 use crate::problem::Problem;
 use crate::solver::{Form, NewtonSettings, along, ask};
 
@@ -49,8 +49,9 @@ pub(super) fn crack<F: Form>(
     let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        for ((jump, old), intact) in jumps.chunks_exact(2).zip(&old[k]).zip(&intact[k]) {
-            if *intact && problem.interfaces[k].law.onset([jump[0], jump[1]].into(), old).is_some() {
+        for ((jump, old), intact) in jumps.chunks_exact(problem.model.components).zip(&old[k]).zip(&intact[k])
+        {
+            if *intact && problem.interfaces[k].law.onset(local(jump), old).is_some() {
                 return Some(true);
             }
         }
@@ -82,8 +83,8 @@ pub(super) fn first_onset<F: Form>(
     let mut first = 1.0_f64;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        for (jump, old) in jumps.chunks_exact(2).zip(&old[k]) {
-            let fraction = problem.interfaces[k].law.onset([jump[0], jump[1]].into(), old);
+        for (jump, old) in jumps.chunks_exact(problem.model.components).zip(&old[k]) {
+            let fraction = problem.interfaces[k].law.onset(local(jump), old);
             first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));
         }
     }

@@ -1,10 +1,8 @@
 //! The laws as Newton's method asks them: with the states at the last accepted part of an increment, and with a viscosity of
 //! their jumps.
 
-use nalgebra::Vector2;
-
 use crate::history::converged::PointResponse;
-use crate::law::{self, Law};
+use crate::law::{self, Law, Local, local, write_diagonal, write_rows};
 use crate::problem::Problem;
 use crate::solver::Respond;
 
@@ -39,10 +37,10 @@ impl<'a> Laws<'a> {
         &self,
         interface: usize,
         point: usize,
-        jump: &[f64],
+        jump: Local,
     ) -> Result<law::Response, String> {
         let law = &self.problem.interfaces[interface].law;
-        let (jump, old) = (Vector2::new(jump[0], jump[1]), &self.old[interface][point]);
+        let old = &self.old[interface][point];
         let integration = self.problem.interfaces[interface].integration;
         let answer = match self.viscosity {
             Some(_) => law.respond_lagged(jump, old, integration, self.lags),
@@ -64,46 +62,47 @@ impl Respond for Laws<'_> {
         stiffness: &mut [f64],
     ) -> Result<PointResponse, String> {
         let law = &self.problem.interfaces[interface].law;
+        let components = jump.len();
         if let Law::Elastic(_) = law {
-            let [kn, kt] = law.elastic_stiffness();
-            traction.copy_from_slice(&[kn * jump[0], kt * jump[1]]); // what it starts with is a load
-            stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
+            let k = law.elastic_stiffness();
+            (0..components).for_each(|i| traction[i] = k[i] * jump[i]); // what it starts with is a load
+            write_diagonal(&k[..components], stiffness);
             return Ok(PointResponse::default());
         }
         if self.intact.is_some_and(|intact| intact[interface][point]) {
             let (k, old) = (law.elastic_stiffness(), &self.old[interface][point]);
-            (0..2).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
-            stiffness.copy_from_slice(&[k[0], 0.0, 0.0, k[1]]);
+            (0..components).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
+            write_diagonal(&k[..components], stiffness);
             return Ok(PointResponse::default());
         }
-        let answer = self.own(interface, point, jump)?;
-        traction.copy_from_slice(answer.traction.as_slice());
-        stiffness.copy_from_slice(answer.stiffness.transpose().as_slice()); // by rows
-        let mut viscous = [0.0; 2];
+        let answer = self.own(interface, point, local(jump))?;
+        traction.copy_from_slice(&answer.traction.as_slice()[..components]);
+        write_rows(&answer.stiffness, components, stiffness);
+        let mut viscous = Local::zeros();
         if let Some(c) = self.viscosity {
             let old = &self.old[interface][point].jump;
-            for i in 0..2 {
+            for i in 0..components {
                 viscous[i] = c * (jump[i] - old[i]);
                 traction[i] += viscous[i];
-                stiffness[3 * i] += c;
+                stiffness[(components + 1) * i] += c;
             }
         }
         Ok(PointResponse {
             state: answer.state,
             dissipation: answer.dissipation,
-            gradient: answer.dissipation_gradient.into(),
+            gradient: answer.dissipation_gradient,
             released: answer.released,
             viscous,
         })
     }
 
     fn dissipation<'m>(&self, memory: &'m PointResponse) -> (f64, &'m [f64]) {
-        (memory.dissipation, &memory.gradient)
+        (memory.dissipation, &memory.gradient.as_slice()[..self.problem.model.components])
     }
 
     fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]) {
-        let [kn, kt] = self.problem.interfaces[interface].law.elastic_stiffness();
-        stiffness.copy_from_slice(&[kn, 0.0, 0.0, kt]);
+        let k = self.problem.interfaces[interface].law.elastic_stiffness();
+        write_diagonal(&k[..self.problem.model.components], stiffness);
     }
 }
 

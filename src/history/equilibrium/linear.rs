@@ -5,6 +5,7 @@ use crate::assembly::InterfaceOperator;
 use crate::history::converged::{Converged, InterfaceResponse};
 use crate::history::loading::{Ledger, LoadForces, StepLoad};
 use crate::history::state::ModelState;
+use crate::law::local;
 use crate::solver::{Factored, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp};
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
@@ -90,7 +91,7 @@ impl RampEnds {
         };
         let jumps = start.jumps.iter().zip(&end.jumps).map(|(a, b)| between(a, b)).collect();
         let ledger = Ledger::new(load_factor, &between(&start.measured, &end.measured));
-        Some(found(complete.then(solution), backward_error, jumps, ledger))
+        Some(found(complete.then(solution), backward_error, jumps, ledger, interfaces))
     }
 }
 
@@ -100,9 +101,11 @@ fn found(
     backward_error: f64,
     jumps: Vec<Vec<f64>>,
     ledger: Option<Ledger>,
+    interfaces: &[InterfaceOperator],
 ) -> Converged {
     let answer = |(interface, jumps): (usize, Vec<f64>)| {
-        let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+        let components = interfaces[interface].coupling.components;
+        let jumps = jumps.chunks_exact(components).map(local).collect();
         InterfaceResponse { interface, jumps, memory: Vec::new() } // an elastic interface remembers nothing
     };
     let interfaces = jumps.into_iter().enumerate().map(answer).collect();
@@ -162,7 +165,7 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
         let solution = factored.refined(loaded, prescribed);
         let Answered { solution, jumps, .. } = Answered::new(solution, self.interfaces, &[]);
         let backward_error = solution.backward_error;
-        let found = found(Some(solution), backward_error, jumps, None);
+        let found = found(Some(solution), backward_error, jumps, None, self.interfaces);
         if usable(&found) { Ok(found) } else { Err(Failure::Unusable(backward_error)) }
     }
 

@@ -9,6 +9,7 @@ use super::{
 use crate::history::converged::{Converged, InterfaceResponse, PointResponse};
 use crate::history::loading::{Ledger, LoadForces, StepLoad};
 use crate::history::state::ModelState;
+use crate::law::local;
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Constraint, Form, Iterate, LinearMeasure, Newton, NewtonSettings, NodalSolution,
@@ -138,9 +139,10 @@ impl<F: Form> NewtonEngine<'_, F> {
         let active = self.form.as_ref().map_or(&[][..], |(_, form, _)| form.active());
         let (viscous, [released, bend]) = viscosity::account(laws, active, &self.search.viscous, &iterate);
         self.found = (iterate.x, iterate.forces, viscous);
+        let components = self.problem.model.components;
         let interfaces =
             active.iter().zip(iterate.jumps).zip(iterate.memory).map(|((&interface, jumps), memory)| {
-                let jumps = jumps.chunks_exact(2).map(|r| [r[0], r[1]]).collect();
+                let jumps = jumps.chunks_exact(components).map(local).collect();
                 InterfaceResponse { interface, jumps, memory }
             });
         // one solve is all that a linear scene takes

@@ -18,23 +18,25 @@ pub(super) fn account(
         return (viscous, [0.0; 2]);
     }
     let problem = laws.problem;
+    let components = problem.model.components;
     let (mut released, mut bent) = (0.0, 0.0);
     for (a, &k) in active.iter().enumerate() {
         let points = &problem.model.interfaces[k].coupling.points;
         let dilates = problem.interfaces[k].law.dilates();
-        let mut now = Vec::with_capacity(2 * points.len());
+        let mut now = Vec::with_capacity(components * points.len());
         for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next
-            (0..2).for_each(|i| now.push(iterate.tractions[a][2 * p + i] - answer.state.traction[i]));
+            (0..components)
+                .for_each(|i| now.push(iterate.tractions[a][components * p + i] - answer.state.traction[i]));
             let jump = answer.state.jump;
             let moved = jump - old.jump;
             let middle = 0.5 * (jump + old.jump);
             // a law that lags may drop at once
-            let Ok(start) = laws.own(k, p, old.jump.as_slice()) else { continue };
-            let Ok(middle) = laws.own(k, p, middle.as_slice()) else { continue };
-            for i in 0..2 {
-                let before = before.get(a).map_or(0.0, |viscous| viscous[2 * p + i]);
-                let own = iterate.tractions[a][2 * p + i] - answer.viscous[i];
+            let Ok(start) = laws.own(k, p, old.jump) else { continue };
+            let Ok(middle) = laws.own(k, p, middle) else { continue };
+            for i in 0..components {
+                let before = before.get(a).map_or(0.0, |viscous| viscous[components * p + i]);
+                let own = iterate.tractions[a][components * p + i] - answer.viscous[i];
                 // ½ (t₀ + t₁) − (t₀' + 4 t_m + t₁) / 6
                 let bend = 0.5 * (old.traction[i] + own)
                     - (start.traction[i] + 4.0 * middle.traction[i] + own) / 6.0;

@@ -12,18 +12,25 @@
 //! released, not dissipated; without cohesion slip has brought τ to 0 by then. At the apex of c = 0 faces that could
 //! part or slide with dilatancy (0 < ṙ_n < tanψ |ṙ_t|) slide, as their neighbours on either side of the apex do.
 //!
+//! In space slip goes along the shear that would be there had nothing slipped: a way is followed in the plane of the normal
+//! and that direction. This is exact where the shear keeps its direction, and of first order in its turn where it does not.
+//!
 //! An initial gap g is r_n^p = −g at the start: the jump at which the faces meet. Not in the paper, which only names
 //! friction laws (§3.2); classical otherwise.
 
 mod jet;
+mod turned;
 mod way;
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, error_at, not_negative, positive};
+use super::local::{Local, N, shear};
 use super::{Response, State};
+
+use turned::Turned;
 
 /// Parameters of the Coulomb law.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,22 +76,25 @@ impl Coulomb {
     }
 
     /// Excess of a traction over the surface |τ| ≤ c − μ σ, σ ≤ 0 [stress].
-    pub(super) fn excess(&self, traction: Vector2<f64>) -> f64 {
-        let (sigma, tau) = (traction.x, traction.y);
-        sigma.max(tau.abs() + self.friction_coefficient * sigma - self.cohesion)
+    pub(super) fn excess(&self, traction: Local) -> f64 {
+        let sigma = traction[N];
+        sigma.max(shear(&traction) + self.friction_coefficient * sigma - self.cohesion)
     }
 
     /// Open, stick or slip at the end of the straight way from the old jump.
-    pub(super) fn respond(&self, jump: Vector2<f64>, old: &State) -> Response {
-        let end = way::follow(self, old.jump, old.jump_plastic, jump);
+    pub(super) fn respond(&self, jump: Local, old: &State) -> Response {
+        let turned = Turned::new(jump, old);
+        let end =
+            way::follow(self, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
         let [sigma, tau] = end.traction;
-        let traction = Vector2::new(sigma.value, tau.value);
+        let traction = turned.space(Vector2::new(sigma.value, tau.value));
+        let jump_plastic = turned.space(end.jump_plastic) + turned.across(jump);
         Response {
             traction,
-            stiffness: Matrix2::from_rows(&[sigma.gradient.transpose(), tau.gradient.transpose()]),
-            state: State { jump, traction, jump_plastic: end.jump_plastic, status: end.status, ..*old },
+            stiffness: turned.stiffness(&end.traction),
+            state: State { jump, traction, jump_plastic, status: end.status, ..*old },
             dissipation: end.dissipation.value,
-            dissipation_gradient: end.dissipation.gradient,
+            dissipation_gradient: turned.space(end.dissipation.gradient),
             released: end.released,
         }
     }

@@ -13,7 +13,7 @@ use nalgebra::Vector2;
 
 use super::jet::Jet;
 use super::{Coulomb, OPEN, SLIP, STICK};
-use crate::law::{N, T};
+use crate::law::local::{N, T};
 
 /// End of a way.
 pub(super) struct WayEnd {

@@ -6,8 +6,9 @@
 //! an energy) the difference may vanish by chance: such an event is enclosed by halving until the traction changes
 //! little across it.
 
-use nalgebra::Vector2;
+use nalgebra::SVector;
 
+use super::super::local::shear;
 use super::flow::Mode;
 use super::march::{Stage, WayPoint, two_stage_step};
 use super::surface::Surface;
@@ -43,10 +44,10 @@ const SNAP: f64 = 1e-3;
 const SNAPS: usize = 50;
 
 /// A sub-step done in halves.
-pub(super) struct Double {
+pub(super) struct Double<const D: usize> {
     pub length: f64,
-    pub stages: [[Stage; 2]; 2],
-    pub end: WayPoint,
+    pub stages: [[Stage<D>; 2]; 2],
+    pub end: WayPoint<D>,
 }
 
 /// Error control under way.
@@ -85,13 +86,13 @@ impl ErrorControl {
     }
 
     /// The next sub-step, as long as the bound allows; `None` if the traction snaps.
-    pub fn next(
+    pub fn next<const D: usize>(
         &mut self,
         surface: &Surface,
-        from: &WayPoint,
-        direction: Vector2<f64>,
+        from: &WayPoint<D>,
+        direction: SVector<f64, D>,
         left: f64,
-    ) -> Option<Double> {
+    ) -> Option<Double<D>> {
         loop {
             self.tries_left = self.tries_left.checked_sub(1)?;
             let length = self.length.min(left);
@@ -142,7 +143,12 @@ pub(super) fn local_bound(surface: &Surface, tolerance: f64) -> f64 {
 }
 
 /// A sub-step in halves.
-pub(super) fn in_halves(surface: &Surface, from: &WayPoint, direction: Vector2<f64>, length: f64) -> Double {
+pub(super) fn in_halves<const D: usize>(
+    surface: &Surface,
+    from: &WayPoint<D>,
+    direction: SVector<f64, D>,
+    length: f64,
+) -> Double<D> {
     let change = direction * (0.5 * length);
     let (middle, first) = two_stage_step(surface, from, change);
     let (end, second) = two_stage_step(surface, &middle, change);
@@ -151,12 +157,12 @@ pub(super) fn in_halves(surface: &Surface, from: &WayPoint, direction: Vector2<f
 
 /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
 /// to its root where τ vanishes.
-fn rounding_near_vertex(surface: &Surface, end: &WayPoint) -> f64 {
+fn rounding_near_vertex<const D: usize>(surface: &Surface, end: &WayPoint<D>) -> f64 {
     let largest = surface.scale() * (ROUNDING * surface.e_chi.max(1.0 / surface.e_chi)).sqrt();
     if (1.0 - end.work * surface.per_gf_i).abs() <= AT_ORIGIN {
         return largest;
     }
-    let tau = end.traction.y.abs();
+    let tau = shear(&end.traction);
     if end.mode == Mode::Sliding && tau > 0.0 {
         return largest.min(ROUNDING * surface.scale() * (surface.scale() / tau));
     }
@@ -164,7 +170,7 @@ fn rounding_near_vertex(surface: &Surface, end: &WayPoint) -> f64 {
 }
 
 /// True if the flow changes its law within a step: another mode, or an energy used up.
-fn is_across_event(surface: &Surface, from: &WayPoint, step: &Double) -> bool {
+fn is_across_event<const D: usize>(surface: &Surface, from: &WayPoint<D>, step: &Double<D>) -> bool {
     let mode = step.end.mode;
     let used_up = |w: f64| [w * surface.per_gf_i >= USED_UP, w * surface.per_gf_iia >= USED_UP];
     (from.mode != Mode::Elastic && from.mode != mode)

@@ -9,9 +9,13 @@
 //! the viscosity. A state that does not move lies inside the surface of the law itself.
 
 use super::march::{compliant, stiff};
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::SVector;
 
+use super::super::local::{
+    Local, LocalMatrix, N, across, along, diagonal, direction, narrow, shear, widen, widen_matrix,
+};
 use super::super::{Response, State};
+use super::WORK;
 use super::flow::Mode;
 use super::surface::Surface;
 
@@ -39,8 +43,8 @@ enum SetRegion {
 
 impl Set {
     fn new(surface: &Surface, old: &State) -> Set {
-        let now = surface.at(old.fracture_work);
-        let sigma = old.traction.x.min(now.chi);
+        let now = surface.at(old.own[WORK]);
+        let sigma = old.traction[N].min(now.chi);
         let limit = now.tau(sigma);
         let f = if sigma < 0.0 { surface.dilatancy(sigma).0 * now.fc } else { 1.0 };
         let steep = (now.t * (now.c - sigma * now.t) / limit).min(STEEPEST);
@@ -53,80 +57,91 @@ impl Set {
     }
 
     /// The nearest traction of the set, in the measure of the compliance.
-    fn nearest(&self, trial: Vector2<f64>) -> (Vector2<f64>, SetRegion) {
+    fn nearest<const D: usize>(&self, trial: &SVector<f64, D>) -> (SVector<f64, D>, SetRegion) {
         let ([kn, kt], a, chi) = (self.stiffness, self.slope, self.chi);
-        let (sigma, tau) = (trial.x, trial.y.abs());
+        let (sigma, tau) = (trial[N], shear(trial));
         let excess = tau - self.limit(sigma);
         let slip = excess / (kt + a * a * kn);
-        let by_facet = Vector2::new(sigma - kn * a * slip, tau - kt * slip);
+        let by_facet = (sigma - kn * a * slip, tau - kt * slip);
         let corner = self.limit(chi);
         let (end, part) = if excess <= 0.0 && sigma <= chi {
-            (Vector2::new(sigma, tau), SetRegion::Inside)
-        } else if excess > 0.0 && by_facet.x <= chi && by_facet.y >= 0.0 {
+            ((sigma, tau), SetRegion::Inside)
+        } else if excess > 0.0 && by_facet.0 <= chi && by_facet.1 >= 0.0 {
             (by_facet, SetRegion::Facet)
         } else if tau <= corner {
-            (Vector2::new(chi, tau), SetRegion::Cut)
+            ((chi, tau), SetRegion::Cut)
         } else if corner >= 0.0 {
-            (Vector2::new(chi, corner), SetRegion::Corner)
+            ((chi, corner), SetRegion::Corner)
         } else {
-            (Vector2::new(self.from[0] + self.from[1] / a, 0.0), SetRegion::Corner)
+            ((self.from[0] + self.from[1] / a, 0.0), SetRegion::Corner)
         };
-        (Vector2::new(end.x, end.y.copysign(trial.y)), part)
+        (along(end.0, end.1, &direction(trial)), part)
     }
 
     /// dt/dr, symmetric and never negative.
-    fn tangent(&self, part: SetRegion, sign: f64) -> Matrix2<f64> {
-        let ([kn, kt], a) = (self.stiffness, self.slope);
-        match part {
-            SetRegion::Inside => Matrix2::new(kn, 0.0, 0.0, kt),
+    fn tangent<const D: usize>(
+        &self,
+        part: SetRegion,
+        trial: &SVector<f64, D>,
+        end: &SVector<f64, D>,
+    ) -> LocalMatrix {
+        let ([kn, kt], a, e) = (self.stiffness, self.slope, direction(trial));
+        let turned = if shear(trial) > 0.0 { kt * shear(end) / shear(trial) } else { 0.0 };
+        let along_shear = e * e.transpose() * kt;
+        let d = match part {
+            SetRegion::Inside => diagonal(kn, kt),
             SetRegion::Facet => {
-                let stiff = Vector2::new(kn * a, kt * sign);
-                Matrix2::new(kn, 0.0, 0.0, kt) - stiff * stiff.transpose() / (kt + a * a * kn)
+                let stiff = along(kn * a, kt, &e);
+                let rest = along_shear + across(&e) * turned;
+                diagonal(kn, 0.0) + rest - stiff * stiff.transpose() / (kt + a * a * kn)
             }
-            SetRegion::Cut => Matrix2::new(0.0, 0.0, 0.0, kt),
-            SetRegion::Corner => Matrix2::zeros(),
-        }
+            SetRegion::Cut => diagonal(0.0, kt),
+            SetRegion::Corner => across(&e) * turned,
+        };
+        widen_matrix(&d, if matches!(part, SetRegion::Inside | SetRegion::Cut) { kt } else { turned })
     }
 
-    /// Fraction of a straight way at which the set is left.
-    fn exit(&self, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
-        let over = |t: Vector2<f64>| [t.y.abs() - self.limit(t.x), t.x - self.chi];
+    /// Fraction of a straight way at which the set is left; where the shear turns, of second order in its turn.
+    fn exit<const D: usize>(&self, from: &SVector<f64, D>, to: &SVector<f64, D>) -> f64 {
+        let over = |t: &SVector<f64, D>| [shear(t) - self.limit(t[N]), t[N] - self.chi];
         let share = |(a, b): (f64, f64)| if b > 0.0 { (a / (a - b)).clamp(0.0, 1.0) } else { 1.0 };
         over(from).into_iter().zip(over(to)).map(share).fold(1.0, f64::min)
     }
 }
 
 /// The answer at a jump from an old state. Where the surface has shrunk under that, its traction drops first.
-pub(super) fn on_facet(surface: &Surface, jump: Vector2<f64>, old: &State) -> Response {
+pub(super) fn on_facet<const D: usize>(surface: &Surface, jump: Local, old: &State) -> Response {
     let set = Set::new(surface, old);
-    let start = set.nearest(old.traction).0;
-    let trial = old.traction + stiff(surface, jump - old.jump);
-    let (traction, part) = set.nearest(trial);
-    let (dropped, plastic) = (compliant(surface, old.traction - start), compliant(surface, trial - traction));
-    let leaves = start + set.exit(start, trial) * (trial - start);
-    let dissipation =
-        0.5 * ((old.traction + start).dot(&dropped) + (leaves + traction).dot(&(plastic - dropped)));
-    let work = match traction.x > 0.0 {
+    let carried: SVector<f64, D> = narrow(&old.traction);
+    let start = set.nearest(&carried).0;
+    let trial = carried + stiff(surface, narrow(&jump) - narrow(&old.jump));
+    let (traction, part) = set.nearest(&trial);
+    let (dropped, plastic) = (compliant(surface, carried - start), compliant(surface, trial - traction));
+    let leaves = start + (trial - start) * set.exit(&start, &trial);
+    let dissipation = 0.5 * ((carried + start).dot(&dropped) + (leaves + traction).dot(&(plastic - dropped)));
+    let work = match traction[N] > 0.0 {
         true => dissipation,
-        false => (traction.y.abs() + traction.x * surface.at(old.fracture_work).t) * plastic.y.abs(),
+        false => (shear(&traction) + traction[N] * surface.at(old.own[WORK]).t) * shear(&plastic),
     };
     let mode = match part {
         SetRegion::Inside => Mode::Elastic,
-        _ if traction.x > 0.0 => Mode::Tension,
+        _ if traction[N] > 0.0 => Mode::Tension,
         _ => Mode::Compression,
     };
+    let mut state = State {
+        jump,
+        traction: widen(&traction),
+        jump_plastic: old.jump_plastic + widen(&plastic),
+        status: mode as u8,
+        ..*old
+    };
+    state.own[WORK] = old.own[WORK] + work.max(0.0);
     Response {
-        traction,
-        stiffness: set.tangent(part, 1.0_f64.copysign(trial.y)),
-        state: State {
-            jump,
-            traction,
-            jump_plastic: old.jump_plastic + plastic,
-            fracture_work: old.fracture_work + work.max(0.0),
-            status: mode as u8,
-        },
+        traction: state.traction,
+        stiffness: set.tangent(part, &trial, &traction),
+        state,
         dissipation,
-        dissipation_gradient: Vector2::zeros(), // no path is followed in viscous steps
+        dissipation_gradient: Local::zeros(), // no path is followed in viscous steps
         released: 0.0,
     }
 }

@@ -1,7 +1,7 @@
 //! Normal/shear cracking of an interface (paper §3.2, figure 3): elasticity with a cracking surface that shrinks.
 //!
 //! ```text
-//! t = K (r − r^p),  K = diag(K_N, K_T)                                     elastic, never degrades
+//! t = K (r − r^p),  K = diag(K_N, K_T, K_T)                                elastic, never degrades
 //! F = √(τ² + b²) − (c − σ tanφ) ≤ 0,  b = c − χ tanφ                       hyperbola, vertex (χ, 0)
 //! χ = χ₀ (1 − S(W/G_I)),  c = c₀ (1 − S(W/G_II)),  tanφ = t₀ − (t₀ − t_r) S(W/G_II)
 //! ṙ^p = λ̇ (f tanφ, τ/s),  s = √(τ² + b²)                                  f: dilatancy
@@ -27,13 +27,24 @@ pub use surface::Strength;
 
 use facet::on_facet;
 use march::step_nested;
-use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Integration, Response, State, Unresolved};
+use super::local::{Local, N, is_plane, narrow, shear};
+use super::{Integration, Response, State, Unresolved, Variable};
 use substep::{Lengths, march, march_euler, onset_of};
 use surface::Surface;
+
+/// Index of the work W spent on fracture among what the law knows of a point.
+pub const WORK: usize = 0;
+
+/// Variables of the law.
+pub(super) const VARIABLES: [Variable; 1] = [Variable {
+    name: "fracture_work",
+    unit: "stress × length",
+    meaning: "work W spent on fracture, friction left out",
+    place: WORK,
+}];
 
 /// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -82,67 +93,85 @@ impl Cracking {
         Strength { tensile_strength: now.chi, cohesion: now.c, tan_friction: now.t }
     }
 
-    /// The hyperbola F of the intact interface at a traction (n, t) [stress]; positive is outside.
-    pub fn excess(&self, traction: Vector2<f64>) -> f64 {
+    /// The hyperbola F of the intact interface at a traction [stress]; positive is outside.
+    pub fn excess(&self, traction: Local) -> f64 {
         self.excess_at(traction, 0.0)
     }
 
-    /// The hyperbola F at a traction (n, t) once the work W has been spent [stress].
-    pub fn excess_at(&self, traction: Vector2<f64>, fracture_work: f64) -> f64 {
-        Surface::new(self).at(fracture_work).hyperbola(traction.x, traction.y)
+    /// The hyperbola F at a traction once the work W has been spent [stress].
+    pub fn excess_at(&self, traction: Local, fracture_work: f64) -> f64 {
+        Surface::new(self).at(fracture_work).hyperbola(traction[N], shear(&traction))
     }
 
     /// The answer at a jump, reached in a straight line from the old state.
     pub(super) fn respond(
         &self,
-        jump: Vector2<f64>,
+        jump: Local,
         old: &State,
         integration: Integration,
     ) -> Result<Response, Unresolved> {
         let surface = Surface::new(self);
         match integration {
             Integration::Tolerance(tolerance) => {
-                march(&surface, jump, old, Lengths::Controlled(tolerance, None))
+                self.in_sub_steps(jump, old, Lengths::Controlled(tolerance, None))
             }
-            Integration::BackwardEuler(steps) => Ok(march_euler(&surface, jump, old, steps)),
+            Integration::BackwardEuler(steps) if is_plane(&jump, old) => {
+                Ok(march_euler::<2>(&surface, narrow(&jump), old, steps))
+            }
+            Integration::BackwardEuler(steps) => Ok(march_euler::<3>(&surface, jump, old, steps)),
+        }
+    }
+
+    /// The two-stage scheme in the plane or in space.
+    fn in_sub_steps(&self, jump: Local, old: &State, lengths: Lengths) -> Result<Response, Unresolved> {
+        let surface = Surface::new(self);
+        match is_plane(&jump, old) {
+            true => march::<2>(&surface, narrow(&jump), old, lengths),
+            false => march::<3>(&surface, jump, old, lengths),
         }
     }
 
     /// The answer of a viscous step from a state under compression, with friction lagged and dilatancy kept.
-    pub(super) fn respond_on_facet(&self, jump: Vector2<f64>, old: &State) -> Response {
-        on_facet(&Surface::new(self), jump, old)
+    pub(super) fn respond_on_facet(&self, jump: Local, old: &State) -> Response {
+        match is_plane(&jump, old) {
+            true => on_facet::<2>(&Surface::new(self), jump, old),
+            false => on_facet::<3>(&Surface::new(self), jump, old),
+        }
     }
 
     /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
-    pub(super) fn onset(&self, jump: Vector2<f64>, old: &State) -> Option<f64> {
-        onset_of(&Surface::new(self), jump, old)
+    pub(super) fn onset(&self, jump: Local, old: &State) -> Option<f64> {
+        match is_plane(&jump, old) {
+            true => onset_of::<2>(&Surface::new(self), narrow(&jump), old),
+            false => onset_of::<3>(&Surface::new(self), jump, old),
+        }
     }
 
-    /// One backward Euler step by the safe nested solver alone: traction (n, t), W. What Newton is checked against.
-    pub fn respond_nested(&self, jump: Vector2<f64>, old: &State) -> (Vector2<f64>, f64) {
+    /// One backward Euler step by the safe nested solver alone: traction, W. What Newton is checked against.
+    pub fn respond_nested(&self, jump: Local, old: &State) -> (Local, f64) {
         step_nested(&Surface::new(self), jump, old)
     }
 
     /// The answer under error control, with the lengths of its sub-steps appended to `lengths`.
     pub fn respond_recording(
         &self,
-        jump: Vector2<f64>,
+        jump: Local,
         old: &State,
         tolerance: f64,
         lengths: &mut Vec<f64>,
     ) -> Result<Response, Unresolved> {
-        march(&Surface::new(self), jump, old, Lengths::Controlled(tolerance, Some(lengths)))
+        self.in_sub_steps(jump, old, Lengths::Controlled(tolerance, Some(lengths)))
     }
 
     /// The answer in sub-steps of given lengths, the last one up to the jump: the map whose exact derivative is the
     /// stiffness. Error control chooses these lengths anew for every jump, which the stiffness leaves out.
     pub fn respond_replaying(
         &self,
-        jump: Vector2<f64>,
+        jump: Local,
         old: &State,
         lengths: &[f64],
     ) -> Result<Response, Unresolved> {
-        march(&Surface::new(self), jump, old, Lengths::Given(lengths))
+        self.in_sub_steps(jump, old, Lengths::Given(lengths))
     }
 
     /// Distance of two states, as an error of the traction [stress]: in traction, strength and jump.
@@ -151,7 +180,7 @@ impl Cracking {
         let loss = surface.loss();
         (a.traction - b.traction)
             .amax()
-            .max((a.fracture_work - b.fracture_work).abs() * loss)
+            .max((a.own[WORK] - b.own[WORK]).abs() * loss)
             .max((a.jump - b.jump).amax() * loss * surface.scale())
     }
 
