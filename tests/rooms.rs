@@ -85,6 +85,70 @@ fn every_file_opens_with_what_it_is() {
     }
 }
 
+/// Files whose business is the plane: shapes, lines of interfaces, elements, and a law's way with one tangent.
+const KERNELS: [&str; 4] = ["shape/", "coupling/line/", "continuum/", "law/coulomb/"];
+
+/// What writes the plane into types or loops: pairs of numbers in public types, and a literal number of components.
+fn plane(text: &str) -> Vec<String> {
+    let pair = |line: &&str| {
+        let line = line.trim_start();
+        let variant = line.starts_with(char::is_uppercase) && (line.contains('(') || line.contains('{'));
+        let public = line.starts_with("pub ") && !line.contains("fn ");
+        (public || variant) && line.contains("[f64; 2]")
+    };
+    let signature = |line: &&str| {
+        let line = line.trim_start();
+        line.starts_with("pub fn ") && line.contains("[f64; 2]")
+    };
+    let literal = |line: &&str| {
+        let forms = [
+            "components: 2",
+            "chunks_exact(2)",
+            "chunks_exact_mut(2)",
+            "2 * node +",
+            "2 * dof",
+            "2 * p +",
+            "dofs / 2",
+        ];
+        forms.iter().any(|form| line.contains(form))
+    };
+    let found = text.lines().filter(|line| pair(line) || signature(line) || literal(line));
+    found.map(|line| line.trim().to_string()).collect()
+}
+
+#[test]
+fn the_plane_is_data_outside_kernels() {
+    for (path, text) in sources() {
+        let path = path.to_string_lossy();
+        if KERNELS.iter().any(|kernel| path.starts_with(kernel)) {
+            continue;
+        }
+        let found = plane(&text);
+        assert!(
+            found.is_empty(),
+            "{path} has the plane in {found:?}; `Ends` are intervals, `Local` is (n, t, s)"
+        );
+    }
+}
+
+#[test]
+fn the_plane_is_found() {
+    for line in [
+        "    pub at: [f64; 2],",
+        "    Uniform([f64; 2]),",
+        "pub type Pair = Vec<[f64; 2]>;",
+        "    pub fn at(&self, x: [f64; 2]) -> f64 {",
+        "        components: 2,",
+        "let jumps = jumps.chunks_exact(2);",
+        "let dof = 2 * node + d;",
+    ] {
+        assert_eq!(plane(line), [line.trim()]);
+    }
+    let allowed =
+        "    pub at: [f64; 3],\n    ends: [f64; 2],\n    pub s: Ends,\n    let c = 2 * nodes.len();";
+    assert!(plane(allowed).is_empty());
+}
+
 /// The modules of the crate: their names from the root, and their files.
 struct Modules {
     texts: BTreeMap<PathBuf, String>,

@@ -7,12 +7,14 @@
 mod interface;
 mod matrix;
 mod pattern;
+mod rigid;
 mod stiffness;
 mod tangent;
 
 pub use interface::InterfaceOperator;
 pub use matrix::Symmetric;
 pub use pattern::Pattern;
+pub use rigid::RigidMotions;
 pub use stiffness::add_stiffness;
 pub use tangent::InterfaceTangent;
 
@@ -153,16 +155,17 @@ impl BoundSubdomain {
         start: usize,
         values: &mut [f64],
     ) {
-        for c in 0..self.mesh.cells.len() {
-            let nodes = self.mesh.cells.nodes(c);
-            let x = cell_coordinates(&self.mesh, c);
-            let k = element_stiffness(self.mesh.cells.shapes[c], &x, &self.elasticity, thickness);
+        let c = pattern.components();
+        for cell in 0..self.mesh.cells.len() {
+            let nodes = self.mesh.cells.nodes(cell);
+            let x = cell_coordinates(&self.mesh, cell);
+            let k = element_stiffness(self.mesh.cells.shapes[cell], &x, &self.elasticity, thickness);
             for (j, &node_j) in nodes.iter().enumerate() {
                 for (i, &node_i) in nodes.iter().enumerate().filter(|(_, node_i)| **node_i >= node_j) {
                     let at = pattern.block(first + node_i, first + node_j);
-                    for (b, column) in at.into_iter().enumerate() {
-                        for a in if i == j { b } else { 0 }..2 {
-                            values[column - start + a] += k[2 * i + a][2 * j + b];
+                    for (b, column) in at.into_iter().enumerate().take(c) {
+                        for a in if i == j { b } else { 0 }..c {
+                            values[column - start + a] += k[c * i + a][c * j + b];
                         }
                     }
                 }

@@ -108,13 +108,13 @@ impl Pattern {
     }
 
     /// Places in the values of the block of nodes (i, j), i ≥ j: for every column component b, the place of row
-    /// component 0 (on the diagonal block, only rows a ≥ b exist).
+    /// component 0 (on the diagonal block, only rows a ≥ b exist); 0 beyond the components.
     #[inline]
-    pub fn block(&self, i: usize, j: usize) -> [usize; 2] {
+    pub fn block(&self, i: usize, j: usize) -> [usize; 3] {
         let others = self.neighbours(j);
         // the neighbour exists by construction of the pattern
         let index = others.binary_search(&(i as u32)).unwrap_or(0);
-        let mut at = [0; 2];
+        let mut at = [0; 3];
         for (b, at) in at.iter_mut().enumerate().take(self.components) {
             *at = self.offsets[self.components * j + b] as usize + self.components * index - b;
         }

@@ -24,7 +24,7 @@ mod projected;
 mod view;
 
 pub use line::{LineMidplane, Side, join};
-pub use place::{CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, SegmentView, Table};
+pub use place::{CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, SegmentView, Sides, Table};
 
 use crate::error::Result;
 use crate::sparse::Csr;
@@ -124,9 +124,11 @@ impl Coupling {
     /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
     pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
         let table = line::table(name, a, b, scheme)?;
+        let facet = table.sides[0].shapes[0];
+        let components = facet.dimension() + 1; // facets bound what moves
         Ok(match scheme.kind {
-            JumpScheme::Projected | JumpScheme::ProjectedLinear => projected::build(table, PLANE),
-            JumpScheme::Pointwise => pointwise::build(table, PLANE),
+            JumpScheme::Projected | JumpScheme::ProjectedLinear => projected::build(table, components),
+            JumpScheme::Pointwise => pointwise::build(table, components),
         })
     }
 
@@ -140,6 +142,3 @@ impl Coupling {
         self.jump.rows() / self.components
     }
 }
-
-/// Components of displacements that lines join.
-const PLANE: usize = 2;

@@ -7,7 +7,10 @@
 //! `line` fills it from two chains of edges; `pointwise`, `projected` and `jump` know nothing else of geometry.
 
 use crate::shape::vector::{minus, norm};
-use crate::shape::{Shape, lagrange2, lagrange3};
+use crate::shape::{Ends, FacetPoint, Shape, lagrange2, lagrange3};
+
+/// One for side A and one for side B.
+pub type Sides<T> = [T; 2];
 
 /// The facets of one side.
 #[derive(Debug, Clone, Default)]
@@ -28,7 +31,7 @@ pub struct OnFacet {
     /// Number of the facet.
     pub facet: usize,
     /// Reference coordinates on it.
-    pub xi: [f64; 2],
+    pub xi: FacetPoint,
     /// Way from the facet to the curve that its nodes and their directions draw [length].
     pub off: [f64; 3],
 }
@@ -86,11 +89,11 @@ pub struct Midplane {
     /// Length of C [length].
     pub length: f64,
     /// Smallest and largest distance from A to B along n; negative where they overlap [length].
-    pub gap: [f64; 2],
+    pub gap: Ends,
     /// Largest distance of the sides, either way, beyond what chords of one curve differ by [length].
     pub apart: f64,
     /// Shares of A's and of B's length that are joined.
-    pub joined: [f64; 2],
+    pub joined: Sides<f64>,
     /// The largest turn at a kink of either side [rad].
     pub kink: f64,
     /// The segments of C, piece after piece, in order within each.
@@ -107,20 +110,20 @@ pub struct Midplane {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentView {
     /// Arc lengths of its start and end along C [length].
-    pub s: [f64; 2],
+    pub s: Ends,
     /// Its start and end.
     pub places: [[f64; 3]; 2],
     /// Facets of side A and side B.
     pub facets: [usize; 2],
     /// Its projections on them, as fractions from the facet's start to its end.
-    pub projections: [[f64; 2]; 2],
+    pub projections: Sides<Ends>,
 }
 
 /// A cell of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellView {
     /// Arc lengths of its start and end along C [length].
-    pub s: [f64; 2],
+    pub s: Ends,
     /// Its start and end.
     pub places: [[f64; 3]; 2],
 }

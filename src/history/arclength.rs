@@ -2,13 +2,11 @@
 //! that dissipates.
 
 use super::analysis::Analysis;
-use super::energy::dissipation;
-use super::equilibrium::{Failure, PathSearch};
-use super::judge::{Judged, judge};
+use super::equilibrium::PathSearch;
 use super::loading::Start;
 use super::outcome::Outcome;
 use super::progress::PathProgress;
-use super::trial::{SMALLER, SMALLEST, TRACTIONS, USUAL, WIDE, by_load, far, take};
+use super::trial::{Followed, SMALLER, SMALLEST, by_load, follow};
 use crate::error::Result;
 use crate::solver::{Ramp, Unconverged};
 
@@ -25,46 +23,24 @@ pub(super) fn arc(
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let (ahead, last) = if first { (0.0, ratio * part) } else { (ratio, at.change) };
-        match analysis.engine.follow(
-            &analysis.state,
-            at.load_factor,
-            &PathSearch { ramp, amount: None, ahead, last },
-        ) {
-            Ok((found, load_factor)) if load_factor < 1.0 => {
-                let spent = dissipation(analysis.problem, &found);
-                // how far this goes, in increments of the scene; what is intact may go from nothing to anything
-                let load = (load_factor - at.load_factor).abs() / part;
-                let tractions =
-                    if spent > 0.0 { far(analysis, at, &found) / (TRACTIONS * part) } else { 0.0 };
-                let far = load.max(tractions);
-                let Judged { error, .. } = judge(
-                    analysis,
-                    start,
-                    [at.most.sqrt(), 0.0, 0.0],
-                    [at.load_factor, load_factor],
-                    &found,
-                    true,
-                )?;
-                if far <= WIDE && error <= 1.0 {
-                    let iterations = found.iterations;
-                    let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
-                    take(analysis, start, found, at, load_factor, spent)?;
-                    at.ratio = easier.min(1.0 / far).min((1.0 / error).sqrt());
-                    return Ok(Outcome::Converged(iterations));
-                }
+        let path = PathSearch { ramp, amount: None, ahead, last };
+        match follow(analysis, start, &path, at, part)? {
+            Followed::Taken { iterations, growth } => {
+                at.ratio = growth;
+                return Ok(Outcome::Converged(iterations));
             }
-            Ok(_) => {
+            Followed::Beyond => {
                 if let Outcome::Converged((iterations, _)) = by_load(analysis, start, at, 1.0, f64::INFINITY)?
                 {
                     return Ok(Outcome::Converged(iterations));
                 }
             }
-            Err(Failure::Unconverged(failed)) => {
+            Followed::Lost(failed) => {
                 at.tried += failed.iterations;
                 why = failed;
                 analysis.totals.rejected += 1;
             }
-            Err(Failure::Unusable(_)) => {}
+            Followed::Refused { .. } | Followed::Unusable => {}
         }
         ratio *= SMALLER;
     }

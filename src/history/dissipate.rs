@@ -2,11 +2,11 @@
 
 use super::analysis::Analysis;
 use super::equilibrium::{Failure, PathSearch};
-use super::judge::{Judged, judge};
+use super::judge::judge;
 use super::loading::Start;
 use super::outcome::Outcome;
 use super::progress::PathProgress;
-use super::trial::{SMALLER, SMALLEST, TRACTIONS, USUAL, WIDE, by_load, far, take};
+use super::trial::{Followed, SMALLER, SMALLEST, TRACTIONS, WIDE, by_load, far, follow, take};
 use crate::error::Result;
 use crate::solver::{Ramp, Unconverged};
 
@@ -113,44 +113,30 @@ pub(super) fn along(
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let path = PathSearch { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
-        match analysis.engine.follow(&analysis.state, at.load_factor, &path) {
-            Ok((found, load_factor)) if load_factor < 1.0 => {
-                // how far this goes, in increments of the scene
-                let load = (load_factor - at.load_factor).abs() / part;
-                let far = load.max(far(analysis, at, &found) / (TRACTIONS * part));
-                let Judged { error, .. } = judge(
-                    analysis,
-                    start,
-                    [at.most.sqrt(), 0.0, 0.0],
-                    [at.load_factor, load_factor],
-                    &found,
-                    true,
-                )?;
-                if far <= WIDE && error <= 1.0 {
-                    let iterations = found.iterations;
-                    let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
-                    take(analysis, start, found, at, load_factor, amount)?;
-                    at.amount = amount * easier.min(1.0 / far).min((1.0 / error).sqrt());
-                    return Ok(Outcome::Converged(iterations));
-                }
-                at.tried += found.iterations;
+        match follow(analysis, start, &path, at, part)? {
+            Followed::Taken { iterations, growth } => {
+                at.amount = amount * growth;
+                return Ok(Outcome::Converged(iterations));
+            }
+            Followed::Refused { iterations, far, error } => {
+                at.tried += iterations;
                 analysis.totals.rejected += 1;
                 if far <= WIDE && error < FAR_OFF {
                     amount *= (0.8 / error.sqrt()).min(0.5) / SMALLER;
                 }
             }
-            Ok((_, load_factor)) if load_factor >= 1.0 => {
+            Followed::Beyond => {
                 if let Outcome::Converged((iterations, _)) = by_load(analysis, start, at, 1.0, f64::INFINITY)?
                 {
                     return Ok(Outcome::Converged(iterations));
                 }
             }
-            Err(Failure::Unconverged(failed)) => {
+            Followed::Lost(failed) => {
                 at.tried += failed.iterations;
                 why = failed;
                 analysis.totals.rejected += 1;
             }
-            Ok(_) | Err(Failure::Unusable(_)) => {}
+            Followed::Unusable => {}
         }
         amount *= SMALLER;
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
 use crate::problem::{BoundProbe, BoundStep, Problem};
+use crate::shape::Ends;
 use crate::solver::{LinearMeasure, Ramp};
 
 /// A load factor of a step. Its forces are made when they are asked for: an increment without displacements needs none.
@@ -164,9 +165,9 @@ pub(super) struct Ledger {
     /// Load factor.
     pub(super) load_factor: f64,
     /// f · u with the loads at the step's start, and with their change.
-    pub(super) loads: [f64; 2],
+    pub(super) loads: Ends,
     /// Reactions · ū with the displacements at the step's start, and with their change.
-    pub(super) supports: [f64; 2],
+    pub(super) supports: Ends,
     /// Forces of the initial tractions · u.
     pub(super) initial: f64,
     /// Displacement probes, then reactions.

@@ -4,6 +4,7 @@ use super::analysis::Analysis;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::{no_equilibrium, unusable};
 use super::loading::{LoadForces, Start};
+use super::totals::Relaxed;
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::law::Local;
@@ -59,7 +60,7 @@ pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -
     analysis.state.accept(problem, found, load);
     analysis.state.released += released;
     analysis.state.recover(problem);
-    analysis.totals.initial = if given { [rest, released] } else { [0.0; 2] };
+    analysis.totals.initial = if given { Relaxed { rest, released } } else { Relaxed::default() };
     Ok(())
 }
 

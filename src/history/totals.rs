@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::beyond::Beyond;
 use super::equilibrium::strategy::Operations;
 use crate::error::{Code, Warning};
+use crate::shape::Ends;
 use crate::solver::Method;
 
 /// Counts over a whole history.
@@ -48,8 +49,17 @@ pub struct Totals {
     pub beyond: Vec<Beyond>,
     /// Largest sum of the magnitudes of loads and reactions so far [force].
     pub forces: f64,
-    /// Out-of-balance of the initial tractions over their sum, and the energy that they release [force × length].
-    pub initial: [f64; 2],
+    /// Initial tractions that nothing holds.
+    pub initial: Relaxed,
+}
+
+/// Initial tractions that relax before the first increment.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct Relaxed {
+    /// Their out-of-balance over their sum.
+    pub rest: f64,
+    /// Energy that they release [force × length].
+    pub released: f64,
 }
 
 /// A snap: from where no equilibrium continues the path to a stable one.
@@ -62,7 +72,7 @@ pub struct Snap {
     /// Load factor at which half of the energy is released.
     pub load_factor: f64,
     /// Load factors between which it is followed.
-    pub between: [f64; 2],
+    pub between: Ends,
     /// Interface that takes most of it.
     pub interface: String,
     /// Law point there that takes most of it: as many coordinates as the model has.
@@ -114,12 +124,12 @@ impl Totals {
                 "more increments or a smaller solution.path_tolerance show what it means for the answer";
             warnings.push(Warning::new(Code::Energies, what, help));
         }
-        if self.initial[0] > IN_BALANCE {
+        if self.initial.rest > IN_BALANCE {
             let what = format!(
                 "initial tractions are out of balance with the first step's loads by {:.1} % of their sum; they relax before \
                  the first increment and release {:.3e} of energy",
-                100.0 * self.initial[0],
-                self.initial[1]
+                100.0 * self.initial.rest,
+                self.initial.released
             );
             let help = "give loads and supports at load factor 0 that hold them, such as a pressure \"5 + 0*load_factor\"";
             warnings.push(Warning::new(Code::InitialTraction, what, help));

@@ -1,17 +1,18 @@
-//! Trials on the path: an increment by load factor, how far one goes, and its acceptance.
+//! Trials on the path: an increment by load factor, one that follows the path, how far one goes, and its acceptance.
 
 use super::analysis::Analysis;
 use super::converged::Converged;
 use super::energy::{carried, change, dissipation};
-use super::equilibrium::{Ahead, Failure};
-use super::judge::judge;
+use super::equilibrium::{Ahead, Failure, PathSearch};
+use super::judge::{Judged, judge};
 use super::loading::Start;
 use super::outcome::Outcome;
 use super::progress::PathProgress;
 use crate::error::Result;
+use crate::solver::Unconverged;
 
 /// Iterations of a step that is neither too small nor too large.
-pub(super) const USUAL: f64 = 5.0;
+const USUAL: f64 = 5.0;
 /// A step that fails is tried again with this part of its energy, at most so many times.
 pub(super) const SMALLER: f64 = 0.25;
 pub(super) const SMALLEST: usize = 20;
@@ -62,6 +63,50 @@ pub(super) fn by_load(
     }
     let iterations = take(analysis, start, found, at, load_factor, spent)?;
     Ok(Outcome::Converged((iterations, judged.error)))
+}
+
+/// An increment that was followed along the path.
+pub(super) enum Followed {
+    /// Taken; the next one may be `growth` times as large.
+    Taken { iterations: usize, growth: f64 },
+    /// Found and not kept: it goes too far, or its error over the tolerance is above 1.
+    Refused { iterations: usize, far: f64, error: f64 },
+    /// It ends beyond the end of the load.
+    Beyond,
+    /// Not found.
+    Lost(Unconverged),
+    /// Found, but of no use.
+    Unusable,
+}
+
+/// An increment along the path, kept if it goes no further than increments of the scene (`part`) and is accurate enough.
+pub(super) fn follow(
+    analysis: &mut Analysis,
+    start: &Start,
+    path: &PathSearch,
+    at: &mut PathProgress,
+    part: f64,
+) -> Result<Followed> {
+    let (found, load_factor) = match analysis.engine.follow(&analysis.state, at.load_factor, path) {
+        Ok((found, load_factor)) if load_factor < 1.0 => (found, load_factor),
+        Ok(_) => return Ok(Followed::Beyond),
+        Err(Failure::Unconverged(why)) => return Ok(Followed::Lost(why)),
+        Err(Failure::Unusable(_)) => return Ok(Followed::Unusable),
+    };
+    let spent = path.amount.unwrap_or_else(|| dissipation(analysis.problem, &found));
+    // how far this goes, in increments of the scene; what is intact may go from nothing to anything
+    let load = (load_factor - at.load_factor).abs() / part;
+    let tractions = if spent > 0.0 { far(analysis, at, &found) / (TRACTIONS * part) } else { 0.0 };
+    let far = load.max(tractions);
+    let Judged { error, .. } =
+        judge(analysis, start, [at.most.sqrt(), 0.0, 0.0], [at.load_factor, load_factor], &found, true)?;
+    let iterations = found.iterations;
+    if far > WIDE || error > 1.0 {
+        return Ok(Followed::Refused { iterations, far, error });
+    }
+    let easier = (USUAL / iterations as f64).sqrt().clamp(0.5, 2.0);
+    take(analysis, start, found, at, load_factor, spent)?;
+    Ok(Followed::Taken { iterations, growth: easier.min(1.0 / far).min((1.0 / error).sqrt()) })
 }
 
 /// Accepts what was found at a load factor. Returns its iterations.

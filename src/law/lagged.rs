@@ -63,9 +63,14 @@ fn parted(kt: f64, mut answer: Response) -> Response {
     answer
 }
 
+/// (n, t, s) with t and s of a vector.
+fn with_normal(n: f64, v: Local) -> Local {
+    Local::new(n, v[T], v[S])
+}
+
 /// (0, t, s) of a vector.
 fn tangential(v: Local) -> Local {
-    Local::new(0.0, v[T], v[S])
+    with_normal(0.0, v)
 }
 
 impl Cracking {
@@ -120,12 +125,12 @@ fn lagged(
     stiffness.column_mut(N).fill(0.0);
     stiffness[(N, N)] = if closed { kn } else { 0.0 };
     Response {
-        traction: tau + Local::x() * sigma,
+        traction: with_normal(sigma, tau),
         stiffness,
         state: State {
             jump,
-            traction: kept_tau + Local::x() * kept_sigma,
-            jump_plastic: tangential(jump - kept_tau / kt) + Local::x() * opened,
+            traction: with_normal(kept_sigma, kept_tau),
+            jump_plastic: with_normal(opened, jump - kept_tau / kt),
             own: if was_closed { own.state.own } else { old.own },
             status: if closed { SLIPS } else { FREE },
         },

@@ -9,8 +9,6 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use super::State;
-
 /// Components (n, t, s) of a jump or a traction.
 pub type Local = Vector3<f64>;
 /// Derivatives of one by another, rows and columns (n, t, s).
@@ -51,12 +49,6 @@ pub fn write_rows(d: &LocalMatrix, components: usize, rows: &mut [f64]) {
     for (i, row) in rows.chunks_exact_mut(components).enumerate() {
         row.iter_mut().enumerate().for_each(|(j, entry)| *entry = d[(i, j)]);
     }
-}
-
-/// True if a way from a state lies in the plane of n and t.
-#[inline]
-pub(super) fn is_plane(jump: &Local, old: &State) -> bool {
-    jump[S] == 0.0 && old.jump[S] == 0.0 && old.traction[S] == 0.0 && old.jump_plastic[S] == 0.0
 }
 
 /// The first D components.

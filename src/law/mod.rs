@@ -11,6 +11,7 @@ mod elastic;
 mod lagged;
 mod local;
 pub mod path;
+mod state;
 mod variable;
 
 pub use admissible::Inadmissible;
@@ -18,12 +19,14 @@ pub use coulomb::Coulomb;
 pub use cracking::{Cracking, Strength, WORK};
 pub use elastic::Elastic;
 pub use local::{Local, LocalMatrix, N, S, T, diagonal_rows, local, write_diagonal, write_rows};
-pub use variable::{OWN, Variable, variables};
+pub use state::{Integration, Response, State, Unresolved};
+pub use variable::{LawVariable, OWN};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use admissible::{error_at, not_negative};
+use state::listed;
 
 use crate::error::Warning;
 
@@ -45,67 +48,9 @@ pub enum Law {
     Cracking(Cracking),
 }
 
-/// Integration of a law that depends on the way from the old jump to the new one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Integration {
-    /// Second order with sub-steps chosen so that the traction is within this tolerance, relative to the larger of
-    /// tensile strength and cohesion.
-    Tolerance(f64),
-    /// Plain backward Euler in this many equal steps (0 counts as 1): first order.
-    BackwardEuler(usize),
-}
-
-/// State of a law point from one increment to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct State {
-    /// Jump at the last accepted increment [length].
-    pub jump: Local,
-    /// Traction at that jump [stress].
-    pub traction: Local,
-    /// Irreversible jump [length]: the jump at which the point carries nothing.
-    pub jump_plastic: Local,
-    /// Variables of the law itself, each at its place (`Law::variables`); zero where the law has none.
-    pub own: [f64; OWN],
-    /// 0 elastic or stick, 1 T, 2 C or slip, 3 Z, 4 A or open.
-    pub status: u8,
-}
-
-/// Response of a law.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Response {
-    /// Traction [stress].
-    pub traction: Local,
-    /// ∂traction/∂jump, rows and columns (n, t, s) [stress / length]; unsymmetric in general.
-    pub stiffness: LocalMatrix,
-    /// State at the end of the increment.
-    pub state: State,
-    /// Energy dissipated in the increment per area, ∫ t·dr^p, friction included [stress × length].
-    pub dissipation: f64,
-    /// ∂dissipation/∂jump [stress].
-    pub dissipation_gradient: Local,
-    /// Energy per area lost at once by a drop of the traction within the increment, not part of the dissipation
-    /// [stress × length]; the cohesion of `coulomb` faces that part, zero for the other laws.
-    pub released: f64,
-}
-
-/// Why a law has no answer at this jump.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum Unresolved {
-    /// The jump is not a number.
-    #[error("the jump ({}) is not finite", listed(jump))]
-    NotFinite {
-        /// The jump that was asked for.
-        jump: Local,
-    },
-    /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
-    #[error(
-        "the traction snaps near jump ({}): the interface stiffness is too low for its fracture energies",
-        listed(jump)
-    )]
-    SnapBack {
-        /// Fraction of the way at which the traction snaps.
-        jump: Local,
-    },
+/// The variables of all laws: results have an array for each.
+pub fn variables() -> impl Iterator<Item = &'static LawVariable> {
+    cracking::VARIABLES.iter()
 }
 
 impl Law {
@@ -137,7 +82,7 @@ impl Law {
     }
 
     /// What the law knows of a point beyond jump and traction.
-    pub fn variables(&self) -> &'static [Variable] {
+    pub fn variables(&self) -> &'static [LawVariable] {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => &[],
             Law::Cracking(_) => &cracking::VARIABLES,
@@ -272,10 +217,4 @@ impl Law {
             Law::Cracking(law) => law.respond(jump, old, integration),
         }
     }
-}
-
-/// The components of a local vector for a message: two in the plane.
-fn listed(v: &Local) -> String {
-    let shown = if v[S] == 0.0 { &v.as_slice()[..S] } else { v.as_slice() };
-    shown.iter().map(|component| format!("{component:?}")).collect::<Vec<_>>().join(", ")
 }

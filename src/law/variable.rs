@@ -1,13 +1,11 @@
 //! Variables that a law keeps at a point beyond jump and traction: results, probes and tables follow from their names.
 
-use super::{State, cracking};
-
-/// Variables that a law can have of its own.
-pub const OWN: usize = 4;
+/// Most variables that a law has of its own.
+pub const OWN: usize = 1;
 
 /// A variable of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Variable {
+pub struct LawVariable {
     /// Name of its array, probe and column.
     pub name: &'static str,
     /// Its unit.
@@ -16,16 +14,4 @@ pub struct Variable {
     pub meaning: &'static str,
     /// Its place in `State::own`.
     pub place: usize,
-}
-
-impl Variable {
-    /// Its value at a point.
-    pub fn of(&self, state: &State) -> f64 {
-        state.own[self.place]
-    }
-}
-
-/// The variables of all laws: results have an array for each.
-pub fn variables() -> impl Iterator<Item = &'static Variable> {
-    cracking::VARIABLES.iter()
 }

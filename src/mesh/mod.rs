@@ -51,6 +51,13 @@ pub struct Mesh {
     pub groups: IndexMap<String, Group>,
 }
 
+impl Mesh {
+    /// Dimension of its cells, and so of the displacements of its points.
+    pub fn dimension(&self) -> usize {
+        self.cells.shapes.iter().map(|shape| shape.dimension()).max().unwrap_or(0)
+    }
+}
+
 /// Cells in compressed rows: cell c has the nodes `nodes[offsets[c]..offsets[c + 1]]`.
 #[derive(Debug, Clone, Default)]
 pub struct Cells {

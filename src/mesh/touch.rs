@@ -14,7 +14,7 @@ use rstar::{AABB, Envelope, RTree, RTreeObject};
 
 use super::{Facet, Mesh};
 use crate::error::Result;
-use crate::shape::vector::{dot, in_plane, minus};
+use crate::shape::vector::{dot, in_plane, in_space, minus};
 
 /// Touching edges may be this far apart, and more where the boundary turns. Of their length.
 const NEAR: f64 = 1e-3;
@@ -39,7 +39,7 @@ pub struct Touch {
     /// The length that they share [length].
     pub length: f64,
     /// A place in its middle.
-    pub middle: [f64; 2],
+    pub middle: [f64; 3],
 }
 
 /// A boundary edge as a straight line.
@@ -291,7 +291,7 @@ fn gather(lines: &[BoundaryLine], shared: &[SharedLength]) -> Vec<Touch> {
             of_side.into_iter().map(|line| lines[line].edge).collect()
         });
         let (length, middle) = middle(piece.iter().map(|&i| &shared[i].part));
-        Touch { subdomains, edges, length, middle }
+        Touch { subdomains, edges, length, middle: in_space(middle) }
     };
     found.into_iter().map(touch).collect()
 }

@@ -73,7 +73,7 @@ pub(super) fn interface(
         Array::float(name, components, values)
     };
     let own = law::variables()
-        .map(|variable| Array::float(variable.name, 1, states.iter().map(|state| variable.of(state))));
+        .map(|variable| Array::float(variable.name, 1, states.iter().map(|state| state.value(variable))));
     let mut point_data = vec![
         local("jump", &snapshot.jumps[index]),
         local("jump_plastic", &plastic),

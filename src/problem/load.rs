@@ -7,6 +7,7 @@ use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_fi
 use crate::error::{Error, Result};
 use crate::mesh::Facet;
 use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
+use crate::shape::Ends;
 use crate::shape::vector::{in_plane, plus};
 
 /// A load in force.
@@ -21,7 +22,7 @@ pub(super) struct BoundLoad {
 #[derive(Debug, Clone)]
 enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
-    Edges { subdomain: usize, edges: Vec<Facet>, s: Option<Vec<[f64; 2]>>, pressure: bool },
+    Edges { subdomain: usize, edges: Vec<Facet>, s: Option<Vec<Ends>>, pressure: bool },
     /// Points of a body.
     Points { subdomain: usize, points: Vec<usize> },
     /// A whole body: force per volume times a factor.

@@ -112,7 +112,7 @@ struct Joined<'a> {
 
 fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) -> Result<Joined<'a>> {
     let mut model = Model {
-        components: 2,
+        components: meshes.iter().map(Mesh::dimension).max().unwrap_or(0),
         thickness: scene.thickness,
         subdomains: subdomains(scene, meshes),
         interfaces: Vec::new(),

@@ -124,7 +124,7 @@ impl BoundProbe {
                     JointField::Jump(c) => input.jumps[*interface][p][c],
                     JointField::Traction(c) => input.tractions[*interface][p][c],
                     JointField::Variable(variable) => {
-                        input.states[*interface].get(p).map_or(0.0, |state| variable.of(state))
+                        input.states[*interface].get(p).map_or(0.0, |state| state.value(variable))
                     }
                 };
                 points.iter().filter(|(_, weight)| *weight != 0.0).map(|&(p, weight)| weight * at(p)).sum()

@@ -1,6 +1,6 @@
 //! Rigid motions that nothing holds, or next to nothing: found before anything is solved, and named.
 //!
-//! Every piece of every body (cells that hang together by edges) has three rigid motions. Supports, interfaces and nodes that
+//! Every piece of every body (cells that hang together by edges) has three rigid motions in the plane. Supports, interfaces and nodes that
 //! two pieces share resist combinations of them; the Gram
 //! matrix of these resistances must have no null space. An interface counts by K h/E, up to 1: softer springs than the bodies
 //! leave fewer digits of a motion that they alone resist.
@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::stiffness::compliance;
 use super::unjoined::Connectivity;
 use super::{BoundInterface, BoundStep};
-use crate::assembly::Model;
+use crate::assembly::{Model, RigidMotions};
 use crate::error::{Code, Error, Result, Warning};
 
 /// A motion is free if its resistance is below this. Of the largest resistance.
@@ -23,23 +23,27 @@ const HARDLY: f64 = 1e-6;
 struct RigidPiece {
     subdomain: usize,
     nodes: Vec<usize>, // of the model
-    centre: [f64; 2],
-    size: f64,
+    motions: RigidMotions,
+}
+
+impl RigidPiece {
+    /// A component of a motion at a node of the model.
+    fn value(&self, model: &Model, mode: usize, node: usize, d: usize) -> f64 {
+        let subdomain = &model.subdomains[self.subdomain];
+        self.motions.value(mode, &subdomain.mesh.points[node - subdomain.first_node], d)
+    }
 }
 
 /// True if the supports alone resist every rigid motion of a subdomain.
 pub fn is_constrained(model: &Model, subdomain: usize, constrained: &[bool]) -> bool {
-    let of = &model.subdomains[subdomain];
-    let mut gram = DMatrix::<f64>::zeros(3, 3);
-    let count = of.mesh.points.len() as f64;
-    let centre = [0, 1].map(|d| of.mesh.points.iter().map(|x| x[d]).sum::<f64>() / count);
-    let reach = |x: &[f64; 3]| (x[0] - centre[0]).hypot(x[1] - centre[1]);
-    let size = of.mesh.points.iter().map(reach).fold(0.0, f64::max);
+    let (c, of) = (model.components, &model.subdomains[subdomain]);
+    let motions = RigidMotions::of(c, of.mesh.points.iter().map(|x| &x[..c]));
+    let each = motions.count();
+    let mut gram = DMatrix::<f64>::zeros(each, each);
     for (node, x) in of.mesh.points.iter().enumerate() {
-        let turn = [-(x[1] - centre[1]) / size, (x[0] - centre[0]) / size];
-        for d in (0..2).filter(|d| constrained[model.components * (of.first_node + node) + d]) {
-            let row = [f64::from(d == 0), f64::from(d == 1), turn[d]];
-            (0..3).for_each(|i| (0..3).for_each(|j| gram[(i, j)] += row[i] * row[j]));
+        for d in (0..c).filter(|d| constrained[c * (of.first_node + node) + d]) {
+            let row: Vec<f64> = (0..each).map(|mode| motions.value(mode, x, d)).collect();
+            (0..each).for_each(|i| (0..each).for_each(|j| gram[(i, j)] += row[i] * row[j]));
         }
     }
     let limit = FREE * gram.diagonal().max();
@@ -53,44 +57,30 @@ pub(super) fn check_free_subdomains(
     interfaces: &[BoundInterface],
     step: &BoundStep,
 ) -> Result<Option<Warning>> {
+    let (c, each) = (model.components, RigidMotions::most(model.components));
     let (parts, part_of, hinges) = parts(model, connectivity);
-    let motion = |part: &RigidPiece, mode: usize, node: usize| -> [f64; 2] {
-        let subdomain = &model.subdomains[part.subdomain];
-        let x = subdomain.mesh.points[node - subdomain.first_node];
-        match mode {
-            0 => [1.0, 0.0],
-            1 => [0.0, 1.0],
-            _ => [-(x[1] - part.centre[1]) / part.size, (x[0] - part.centre[0]) / part.size],
-        }
-    };
-    let mut gram = DMatrix::<f64>::zeros(3 * parts.len(), 3 * parts.len());
+    let mut gram = DMatrix::<f64>::zeros(each * parts.len(), each * parts.len());
     for (p, part) in parts.iter().enumerate() {
-        for d in 0..2 {
-            let constrained: Vec<usize> = part
-                .nodes
-                .iter()
-                .copied()
-                .filter(|node| step.constrained[model.components * node + d])
-                .collect();
+        for d in 0..c {
+            let constrained: Vec<usize> =
+                part.nodes.iter().copied().filter(|node| step.constrained[c * node + d]).collect();
             let share = 1.0 / constrained.len() as f64; // many nodes hold no more than a few
             for node in constrained {
-                let row = [0, 1, 2].map(|mode| motion(part, mode, node)[d]);
-                for i in 0..3 {
-                    for j in 0..3 {
-                        gram[(3 * p + i, 3 * p + j)] += share * row[i] * row[j];
+                let row: Vec<f64> = (0..each).map(|mode| part.value(model, mode, node, d)).collect();
+                for i in 0..each {
+                    for j in 0..each {
+                        gram[(each * p + i, each * p + j)] += share * row[i] * row[j];
                     }
                 }
             }
         }
     }
     for &(node, one, two) in &hinges {
-        let rows = [0, 1].map(|d| {
-            let of = |p: usize, sign: f64| {
-                [0, 1, 2].map(|mode| (3 * p + mode, sign * motion(&parts[p], mode, node)[d]))
+        for d in 0..c {
+            let of = |p: usize, sign: f64| -> Vec<(usize, f64)> {
+                (0..each).map(|m| (each * p + m, sign * parts[p].value(model, m, node, d))).collect()
             };
-            [of(one, 1.0), of(two, -1.0)].concat()
-        });
-        for row in rows {
+            let row = [of(one, 1.0), of(two, -1.0)].concat();
             for &(i, own) in &row {
                 for &(j, other) in &row {
                     gram[(i, j)] += own * other;
@@ -108,15 +98,12 @@ pub(super) fn check_free_subdomains(
         touched.dedup();
         let mut jumps: Vec<(usize, Vec<f64>)> = Vec::new();
         for &p in &touched {
-            for mode in 0..3 {
+            for mode in 0..each {
                 for &node in nodes.iter().filter(|&&node| part_of[node] == p) {
-                    let motion = motion(&parts[p], mode, node);
-                    u[model.components * node..model.components * node + 2].copy_from_slice(&motion);
+                    (0..c).for_each(|d| u[c * node + d] = parts[p].value(model, mode, node, d));
                 }
-                jumps.push((3 * p + mode, interface.jumps(&u)));
-                for &node in &nodes {
-                    u[model.components * node..model.components * node + 2].copy_from_slice(&[0.0; 2]);
-                }
+                jumps.push((each * p + mode, interface.jumps(&u)));
+                nodes.iter().for_each(|&node| u[c * node..c * (node + 1)].fill(0.0));
             }
         }
         let compliance = compliance(model, interface);
@@ -124,8 +111,7 @@ pub(super) fn check_free_subdomains(
         let resists = law.elastic_stiffness().map(|k| share * (k * compliance).min(1.0));
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
-                let sum: f64 =
-                    (0..jump_i.len()).map(|k| resists[k % model.components] * jump_i[k] * jump_j[k]).sum();
+                let sum: f64 = (0..jump_i.len()).map(|k| resists[k % c] * jump_i[k] * jump_j[k]).sum();
                 gram[(*i, *j)] += sum;
             }
         }
@@ -133,11 +119,12 @@ pub(super) fn check_free_subdomains(
     let limit = FREE * gram.diagonal().max().max(f64::MIN_POSITIVE);
     // a pure motion reads better than a combination
     for (p, part) in parts.iter().enumerate() {
-        for (mode, text) in ["translation in x", "translation in y", "rotation"].into_iter().enumerate() {
-            if gram[(3 * p + mode, 3 * p + mode)] <= limit {
-                let [x, y] = part.centre;
-                let mode =
-                    if mode == 2 { format!("{text} about ({x:.4}, {y:.4})") } else { text.to_string() };
+        for mode in 0..each {
+            if gram[(each * p + mode, each * p + mode)] <= limit {
+                let mode = match ["x", "y", "z"][..c].get(mode) {
+                    Some(axis) => format!("translation in {axis}"),
+                    None => format!("rotation about {}", place(&part.motions.centre)),
+                };
                 return Err(free(model, connectivity, &parts, &[p], mode));
             }
         }
@@ -148,18 +135,12 @@ pub(super) fn check_free_subdomains(
         return Ok(None);
     }
     let mode = eigen.eigenvectors.column(least);
-    let share = |p: usize| mode.rows(3 * p, 3).norm();
+    let share = |p: usize| mode.rows(each * p, each).norm();
     let largest = (0..parts.len()).map(share).fold(0.0, f64::max);
     let mut moving: Vec<usize> = (0..parts.len()).filter(|&p| share(p) > 1e-3 * largest).collect();
     moving.sort_by(|&p, &q| share(q).total_cmp(&share(p)));
-    let part = &parts[moving[0]];
-    let [tx, ty, turn] = [0, 1, 2].map(|k| mode[3 * moving[0] + k]);
-    let text = if turn.abs() <= 1e-6 * tx.hypot(ty) {
-        format!("translation along ({:.4}, {:.4})", tx / tx.hypot(ty), ty / tx.hypot(ty))
-    } else {
-        let omega = turn / part.size; // u = t + ω ẑ × (x − centre) vanishes at the pole
-        format!("rotation about ({:.4}, {:.4})", part.centre[0] - ty / omega, part.centre[1] + tx / omega)
-    };
+    let own = mode.rows(each * moving[0], each);
+    let text = told(&parts[moving[0]].motions, own.as_slice());
     if value <= limit {
         return Err(free(model, connectivity, &parts, &moving, text));
     }
@@ -171,6 +152,26 @@ pub(super) fn check_free_subdomains(
     let help =
         "hold it, or give its interfaces a stiffness in that direction: what it does is up to the mesh";
     Ok(Some(Warning::new(Code::HardlyHeld, what, help)))
+}
+
+/// A combination of motions in words: a translation along its direction, a rotation about its pole.
+fn told(motions: &RigidMotions, shares: &[f64]) -> String {
+    let (shifts, turns) = shares.split_at(motions.centre.len());
+    let length = shifts.iter().copied().fold(0.0, f64::hypot);
+    let turn = turns.iter().copied().fold(0.0, f64::hypot);
+    if turn <= 1e-6 * length {
+        let along: Vec<f64> = shifts.iter().map(|shift| shift / length).collect();
+        return format!("translation along {}", place(&along));
+    }
+    let [tx, ty, turn] = *shares else { return format!("rotation about {}", place(&motions.centre)) };
+    let omega = turn / motions.size; // u = t + ω ẑ × (x − centre) vanishes at the pole
+    format!("rotation about {}", place(&[motions.centre[0] - ty / omega, motions.centre[1] + tx / omega]))
+}
+
+/// "(1.0000, 0.5000)".
+fn place(coordinates: &[f64]) -> String {
+    let all: Vec<String> = coordinates.iter().map(|x| format!("{x:.4}")).collect();
+    format!("({})", all.join(", "))
 }
 
 fn free(
@@ -193,9 +194,9 @@ fn named(model: &Model, connectivity: &[Connectivity], parts: &[RigidPiece], mov
     let mut names: Vec<&str> =
         moving.iter().map(|&p| model.subdomains[parts[p].subdomain].name.as_str()).collect();
     names.dedup();
-    let RigidPiece { subdomain, centre: [x, y], .. } = &parts[moving[0]];
+    let RigidPiece { subdomain, motions, .. } = &parts[moving[0]];
     let piece = if connectivity[*subdomain].pieces.count > 1 {
-        format!("the piece around ({x:.4}, {y:.4}) of ")
+        format!("the piece around {} of ", place(&motions.centre))
     } else {
         String::new()
     };
@@ -220,8 +221,7 @@ fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<RigidPiece>, Vec<
         parts.extend((0..pieces.count).map(|_| RigidPiece {
             subdomain: b,
             nodes: Vec::new(),
-            centre: [0.0; 2],
-            size: 0.0,
+            motions: RigidMotions::new(vec![0.0; model.components], 1.0),
         }));
         for (cell, piece) in pieces.of_cell.iter().enumerate() {
             for node in subdomain.mesh.cells.nodes(cell) {
@@ -247,9 +247,10 @@ fn parts(model: &Model, connectivity: &[Connectivity]) -> (Vec<RigidPiece>, Vec<
             let values = part.nodes.iter().map(|&node| point(node)[d]);
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
         };
-        let (x, y) = (range(0), range(1));
-        part.centre = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
-        part.size = 0.5 * (x.1 - x.0).max(y.1 - y.0);
+        let ranges: Vec<(f64, f64)> = (0..model.components).map(range).collect();
+        let centre = ranges.iter().map(|(low, high)| 0.5 * (low + high)).collect();
+        let extent = ranges.iter().map(|(low, high)| high - low).fold(0.0, f64::max);
+        part.motions = RigidMotions::new(centre, 0.5 * extent);
     }
     (parts, part_of, hinges)
 }

@@ -1,23 +1,28 @@
-//! The geometry of an interface in numbers, as `midplane check` prints it.
+//! The geometry of an interface in numbers, as `midplane check` and summary.json have it.
 
 use super::stiffness::stiffness_number;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::Coupling;
 use crate::law::Law;
+use crate::shape::Ends;
 
 /// An interface in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Edges of A and of B that are joined.
     pub edges: [usize; 2],
+    /// Edges of A and of B, those that are not joined among them.
+    pub facets: [usize; 2],
     /// Segments of the mid-plane.
     pub segments: usize,
     /// Nodes of the grid; none for `pointwise`.
     pub grid_nodes: usize,
+    /// Points at which the law acts.
+    pub law_points: usize,
     /// Length of the mid-plane [length].
     pub length: f64,
     /// Smallest and largest gap; negative where the sides overlap [length].
-    pub gap: [f64; 2],
+    pub gap: Ends,
     /// Largest turn between successive edges of a side [degrees].
     pub kink: f64,
     /// K_N h/E.
@@ -38,8 +43,10 @@ impl Survey {
         let kink = [0, 1].map(|side| largest_turn(coupling, side, &joined[side]));
         Survey {
             edges: [joined[0].len(), joined[1].len()],
+            facets: [coupling.facets(0), coupling.facets(1)],
             segments: shares.len(),
             grid_nodes: coupling.midplane.grid_nodes,
+            law_points: coupling.points.len(),
             length: coupling.midplane.length,
             gap: coupling.midplane.gap,
             kink: kink[0].max(kink[1]).to_degrees(),

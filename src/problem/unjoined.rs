@@ -9,7 +9,6 @@ use super::curve::PlannedInterface;
 use crate::assembly::{BoundSubdomain, Model};
 use crate::error::{Code, Result, Warning};
 use crate::mesh::{Facet, Mesh, Pieces, Touch, coinciding};
-use crate::shape::vector::in_plane;
 
 /// Boundaries that lie on each other along less only meet at a point. Of the shortest edge there.
 const MEETING: f64 = 1e-2;
@@ -28,7 +27,7 @@ pub(super) struct Connectivity {
 }
 
 /// Length and middle of lines of contact.
-type ContactLine = (f64, [f64; 2]);
+type ContactLine = (f64, [f64; 3]);
 
 /// Connectivity of every subdomain; warnings of boundaries that lie on each other and that nothing joins.
 pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
@@ -101,7 +100,7 @@ impl Connectivity {
         let places: Vec<String> = hinges
             .iter()
             .take(NAMED)
-            .map(|(node, _)| near(subdomain, in_plane(subdomain.mesh.points[*node])))
+            .map(|(node, _)| near(subdomain, subdomain.mesh.points[*node]))
             .collect();
         let mut text = format!("{} falls into {count} pieces that share ", subdomain.name);
         match hinges.len() {
@@ -142,7 +141,7 @@ fn add((length, middle): &mut ContactLine, touch: &Touch) {
 }
 
 /// "(1, 0.5)".
-fn near(subdomain: &BoundSubdomain, [x, y]: [f64; 2]) -> String {
+fn near(subdomain: &BoundSubdomain, [x, y, _]: [f64; 3]) -> String {
     format!("({}, {})", short(subdomain, x), short(subdomain, y))
 }
 

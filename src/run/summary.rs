@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use crate::assembly::Model;
 use crate::history::{Clock, Operations, Resultant, Snap, Totals, memory, resultant};
-use crate::problem::{Problem, stiffness_number};
+use crate::problem::{Problem, Survey};
 use crate::scene::Scene;
+use crate::shape::Ends;
 
 /// The file.
 #[derive(Debug, Serialize)]
@@ -51,7 +52,7 @@ struct InterfaceSize {
     grid_nodes: usize,
     law_points: usize,
     length: f64,
-    gap: [f64; 2],
+    gap: Ends,
     stiffness_number: f64,
 }
 
@@ -93,18 +94,29 @@ pub(super) struct Balance {
     subdomains: IndexMap<String, Resultants>,
 }
 
-/// Resultants in x and y [force], and their moments about the origin.
-#[derive(Debug, Clone, Copy, Serialize)]
+/// Resultants by direction [force], and their moments about z.
+#[derive(Debug, Clone, Serialize)]
 struct Resultants {
-    load: [f64; 2],
-    reaction: [f64; 2],
+    load: Vec<f64>,
+    reaction: Vec<f64>,
     /// Moment of loads, and of reactions [force × length].
     moment: [f64; 2],
 }
 
+impl InterfaceSize {
+    fn new(survey: Survey) -> InterfaceSize {
+        let Survey { facets: [edges_a, edges_b], segments, grid_nodes, law_points, length, .. } = survey;
+        let Survey { gap, stiffness_number, .. } = survey;
+        InterfaceSize { edges_a, edges_b, segments, grid_nodes, law_points, length, gap, stiffness_number }
+    }
+}
+
 /// Sums loads and reactions.
 pub(super) fn balance(model: &Model, force: &[f64], reactions: &[f64]) -> Balance {
-    let sum = |values: &[f64]| [0, 1].map(|d| values.iter().skip(d).step_by(model.components).sum::<f64>());
+    let sum = |values: &[f64]| -> Vec<f64> {
+        let along = |d: usize| values.iter().skip(d).step_by(model.components).sum();
+        (0..model.components).map(along).collect()
+    };
     let forces: Vec<(String, Resultants)> = (model.subdomains.iter().enumerate())
         .map(|(b, subdomain)| {
             let dofs = model.dofs_of(b);
@@ -143,18 +155,7 @@ pub(super) fn summary<'a>(
         (subdomain.name.as_str(), SubdomainSize { nodes: subdomain.mesh.points.len(), cells })
     });
     let interfaces = model.interfaces.iter().zip(problem.laws()).map(|(interface, law)| {
-        let midplane = &interface.coupling.midplane;
-        let size = InterfaceSize {
-            edges_a: interface.coupling.facets(0),
-            edges_b: interface.coupling.facets(1),
-            segments: midplane.segments.len(),
-            grid_nodes: midplane.grid_nodes,
-            law_points: interface.coupling.points.len(),
-            length: midplane.length,
-            gap: midplane.gap,
-            stiffness_number: stiffness_number(model, interface, law),
-        };
-        (interface.name.as_str(), size)
+        (interface.name.as_str(), InterfaceSize::new(Survey::of(model, interface, law)))
     });
     let told = totals.warnings(problem.solution.path_tolerance);
     let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();

@@ -6,7 +6,7 @@
 
 use super::{Direction, JOINED, Scene};
 use crate::error::name_help;
-use crate::law::{self, Variable};
+use crate::law::{self, LawVariable};
 
 /// A question to an increment.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ pub enum JointField {
     /// Traction, component n or t [stress].
     Traction(usize),
     /// A variable that a law has of its own.
-    Variable(&'static Variable),
+    Variable(&'static LawVariable),
 }
 
 const DISPLACEMENTS: [&str; 2] = ["displacement_x", "displacement_y"];

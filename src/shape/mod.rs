@@ -13,6 +13,11 @@ pub use line::{Line2, Line3, lagrange2, lagrange3};
 pub use map::{determinant, jacobian};
 pub use rule::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Rule};
 
+/// Start and end of an interval, or its least and largest value.
+pub type Ends = [f64; 2];
+/// Reference coordinates on a facet; the second is 0 on a line.
+pub type FacetPoint = [f64; 2];
+
 /// Most nodes a plane cell can have.
 pub const MAX_NODES: usize = 9;
 
@@ -54,6 +59,14 @@ impl Shape {
             Shape::Triangle6 => 6,
             Shape::Quadrilateral8 => 8,
             Shape::Quadrilateral9 => 9,
+        }
+    }
+
+    /// Dimension of the shape itself: 1 for edges, 2 for cells.
+    pub const fn dimension(self) -> usize {
+        match self {
+            Shape::Line2 | Shape::Line3 => 1,
+            _ => 2,
         }
     }
 

@@ -20,6 +20,16 @@ pub fn norm<const D: usize>(p: [f64; D]) -> f64 {
     dot(p, p).sqrt() // as exact as hypot but for sizes beyond 1e±154
 }
 
+/// |p| by `hypot`, free of overflow.
+pub fn length<const D: usize>(p: [f64; D]) -> f64 {
+    p.into_iter().fold(0.0, f64::hypot)
+}
+
+/// p × q
+pub fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [b * z - c * y, c * x - a * z, a * y - b * x]
+}
+
 /// v / |v|
 pub fn unit<const D: usize>(v: [f64; D]) -> [f64; D] {
     let length = norm(v);

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use crate::assembly::RigidMotions;
+
 /// A motion that supports and hinges resist by less than this part of a node's is free.
 const FREE: f64 = 1e-12;
 /// Least part of a mode on the separator that is independent of those before it.
@@ -37,47 +39,30 @@ pub(super) fn free_rigid_modes(
 
 /// Most motions that a body can have.
 pub(super) fn most(components: usize, pieces: &[Vec<usize>]) -> usize {
-    pieces.len().max(1) * (components + components * (components - 1) / 2)
+    pieces.len().max(1) * RigidMotions::most(components)
 }
 
-/// A piece and its rigid motions: translations, then turns about its centre in every plane of axes.
+/// A piece and its rigid motions.
 struct ModalPiece<'a> {
     nodes: &'a [usize],
     coordinates: &'a [f64],
-    centre: Vec<f64>,
-    size: f64,
-    planes: Vec<(usize, usize)>,
+    motions: RigidMotions,
 }
 
 impl<'a> ModalPiece<'a> {
     fn new(c: usize, nodes: &'a [usize], coordinates: &'a [f64]) -> ModalPiece<'a> {
-        let at = |node: usize, d: usize| coordinates[c * node + d];
-        let mean = |d: usize| nodes.iter().map(|&node| at(node, d)).sum::<f64>() / nodes.len() as f64;
-        let centre: Vec<f64> = (0..c).map(mean).collect();
-        let reach = |&node: &usize| (0..c).map(|d| (at(node, d) - centre[d]).powi(2)).sum::<f64>().sqrt();
-        let size = nodes.iter().map(reach).fold(f64::MIN_POSITIVE, f64::max);
-        let planes = (0..c).flat_map(|p| (p + 1..c).map(move |q| (p, q))).collect();
-        ModalPiece { nodes, coordinates, centre, size, planes }
+        let points = nodes.iter().map(|&node| &coordinates[c * node..c * (node + 1)]);
+        ModalPiece { nodes, coordinates, motions: RigidMotions::of(c, points) }
     }
 
     fn components(&self) -> usize {
-        self.centre.len()
-    }
-
-    fn count(&self) -> usize {
-        self.components() + self.planes.len()
+        self.motions.centre.len()
     }
 
     /// A component of a motion at a node.
     fn value(&self, mode: usize, node: usize, d: usize) -> f64 {
         let c = self.components();
-        let from = |d: usize| (self.coordinates[c * node + d] - self.centre[d]) / self.size;
-        match mode.checked_sub(c).map(|k| self.planes[k]) {
-            None => f64::from(u8::from(mode == d)),
-            Some((p, q)) if p == d => -from(q),
-            Some((p, q)) if q == d => from(p),
-            Some(_) => 0.0,
-        }
+        self.motions.value(mode, &self.coordinates[c * node..c * (node + 1)], d)
     }
 }
 
@@ -103,7 +88,7 @@ fn of_chain(
     places: &[Option<u32>],
 ) -> Vec<Vec<f64>> {
     let c = pieces[chain[0]].components();
-    let each = pieces[chain[0]].count();
+    let each = pieces[chain[0]].motions.count();
     let count = each * chain.len();
     let mut resisted = DMatrix::<f64>::zeros(count, count);
     let mut resist = |row: &[(usize, f64)]| {

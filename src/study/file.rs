@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::scene::{self, OneOrMany};
+use crate::shape::Ends;
 
 /// Settings on top of a scene: keys as of `--set`, and what they are set to.
 pub type Settings = IndexMap<String, Value>;
@@ -62,10 +63,10 @@ pub struct Axis {
     pub values: Option<Vec<Value>>,
     /// First and last of `count` values in equal steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub range: Option<[f64; 2]>,
+    pub range: Option<Ends>,
     /// First and last of `count` values in equal ratios; both positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub log_range: Option<[f64; 2]>,
+    pub log_range: Option<Ends>,
     /// Number of values of a range; a Latin hypercube takes its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<usize>,

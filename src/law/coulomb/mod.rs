@@ -88,7 +88,7 @@ impl Coulomb {
             way::follow(self, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
         let [sigma, tau] = end.traction;
         let traction = turned.space(Vector2::new(sigma.value, tau.value));
-        let jump_plastic = turned.space(end.jump_plastic) + turned.across(jump);
+        let jump_plastic = turned.irreversible(end.jump_plastic, jump);
         Response {
             traction,
             stiffness: turned.stiffness(&end.traction),

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 use super::jet::Jet;
 use crate::law::State;
-use crate::law::local::{Local, LocalMatrix, N, S, T, across, direction, is_plane, narrow, shear};
+use crate::law::local::{Local, LocalMatrix, N, S, T, across, direction, narrow, shear};
 
 /// The plane in which a way is followed; that of n and t where nothing is sheared along s.
 pub(super) struct Turned {
@@ -22,7 +22,7 @@ impl Turned {
         // faces that meet on the way are sheared from there on
         let closed = old.jump[N] <= old.jump_plastic[N];
         let sheared = jump - if closed { old.jump_plastic } else { old.jump };
-        if is_plane(&jump, old) {
+        if old.is_plane(&jump) {
             return Turned { e: Local::y(), length: sheared[T], in_space: false };
         }
         Turned { e: direction(&sheared), length: shear(&sheared), in_space: true }
@@ -38,9 +38,10 @@ impl Turned {
         if self.in_space { self.e * v[T] + Local::x() * v[N] } else { Local::new(v[N], v[T], 0.0) }
     }
 
-    /// The part of a vector that lies in the interface across e.
-    pub(super) fn across(&self, v: Local) -> Local {
-        if self.in_space { v - self.space(self.plane(v)) } else { Local::zeros() }
+    /// r^p from its components in the plane: across e nothing is elastic, so that there it is the jump.
+    pub(super) fn irreversible(&self, v: Vector2<f64>, jump: Local) -> Local {
+        let own = self.space(v);
+        if self.in_space { own + jump - self.space(self.plane(jump)) } else { own }
     }
 
     /// Derivatives of a traction by the jump.

@@ -15,9 +15,9 @@ use super::super::local::{
     Local, LocalMatrix, N, across, along, diagonal, direction, narrow, shear, widen, widen_matrix,
 };
 use super::super::{Response, State};
-use super::WORK;
 use super::flow::Mode;
 use super::surface::Surface;
+use super::variables::WORK;
 
 /// Steepest facet: towards the vertex μ has no bound.
 const STEEPEST: f64 = 1e3;

@@ -18,9 +18,9 @@ use nalgebra::{Matrix3, RowSVector, SMatrix, SVector};
 
 use super::super::State;
 use super::super::local::{N, S, T, along, direction, narrow, shear};
-use super::WORK;
 use super::flow::{Answer, Mode, Trial};
 use super::surface::Surface;
+use super::variables::WORK;
 
 /// γ of the two-stage scheme.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;

@@ -22,29 +22,21 @@ mod newton;
 mod substep;
 mod surface;
 mod tangent;
+mod variables;
 
 pub use surface::Strength;
+pub(super) use variables::VARIABLES;
+pub use variables::WORK;
 
 use facet::on_facet;
 use march::step_nested;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::local::{Local, N, is_plane, narrow, shear};
-use super::{Integration, Response, State, Unresolved, Variable};
+use super::local::{Local, N, narrow, shear};
+use super::{Integration, Response, State, Unresolved};
 use substep::{Lengths, march, march_euler, onset_of};
 use surface::Surface;
-
-/// Index of the work W spent on fracture among what the law knows of a point.
-pub const WORK: usize = 0;
-
-/// Variables of the law.
-pub(super) const VARIABLES: [Variable; 1] = [Variable {
-    name: "fracture_work",
-    unit: "stress × length",
-    meaning: "work W spent on fracture, friction left out",
-    place: WORK,
-}];
 
 /// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,7 +107,7 @@ impl Cracking {
             Integration::Tolerance(tolerance) => {
                 self.in_sub_steps(jump, old, Lengths::Controlled(tolerance, None))
             }
-            Integration::BackwardEuler(steps) if is_plane(&jump, old) => {
+            Integration::BackwardEuler(steps) if old.is_plane(&jump) => {
                 Ok(march_euler::<2>(&surface, narrow(&jump), old, steps))
             }
             Integration::BackwardEuler(steps) => Ok(march_euler::<3>(&surface, jump, old, steps)),
@@ -125,7 +117,7 @@ impl Cracking {
     /// The two-stage scheme in the plane or in space.
     fn in_sub_steps(&self, jump: Local, old: &State, lengths: Lengths) -> Result<Response, Unresolved> {
         let surface = Surface::new(self);
-        match is_plane(&jump, old) {
+        match old.is_plane(&jump) {
             true => march::<2>(&surface, narrow(&jump), old, lengths),
             false => march::<3>(&surface, jump, old, lengths),
         }
@@ -133,7 +125,7 @@ impl Cracking {
 
     /// The answer of a viscous step from a state under compression, with friction lagged and dilatancy kept.
     pub(super) fn respond_on_facet(&self, jump: Local, old: &State) -> Response {
-        match is_plane(&jump, old) {
+        match old.is_plane(&jump) {
             true => on_facet::<2>(&Surface::new(self), jump, old),
             false => on_facet::<3>(&Surface::new(self), jump, old),
         }
@@ -141,7 +133,7 @@ impl Cracking {
 
     /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
     pub(super) fn onset(&self, jump: Local, old: &State) -> Option<f64> {
-        match is_plane(&jump, old) {
+        match old.is_plane(&jump) {
             true => onset_of::<2>(&Surface::new(self), narrow(&jump), old),
             false => onset_of::<3>(&Surface::new(self), jump, old),
         }

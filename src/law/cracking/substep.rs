@@ -8,11 +8,11 @@ use nalgebra::{SMatrix, SVector};
 
 use super::super::local::{Local, N, direction, narrow, shear, widen, widen_matrix};
 use super::super::{Response, State, Unresolved};
-use super::WORK;
 use super::control::{ErrorControl, in_halves};
 use super::flow::Mode;
 use super::march::{Change, Slopes, WayPoint, compliant, euler_step, margin, stiff, stiff_rows};
 use super::surface::Surface;
+use super::variables::WORK;
 
 /// A state that does not move is outside above so many times the margin.
 const LEFT_OUTSIDE: f64 = 1e3;
