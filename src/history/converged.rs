@@ -1,7 +1,7 @@
 //! An increment that converged, as it comes from the search.
 
 use super::loading::Ledger;
-use crate::law::{self, Local};
+use crate::law::{self, Local, local};
 use crate::solver::NodalSolution;
 
 /// An interface whose jumps are unknowns, after an increment that converged.
@@ -13,6 +13,18 @@ pub(in crate::history) struct InterfaceResponse {
     pub(in crate::history) jumps: Vec<Local>,
     /// Responses of the law at its law points.
     pub(in crate::history) memory: Vec<PointResponse>,
+}
+
+impl InterfaceResponse {
+    /// From jumps one after the other, so many components each.
+    pub(in crate::history) fn new(
+        interface: usize,
+        components: usize,
+        jumps: &[f64],
+        memory: Vec<PointResponse>,
+    ) -> InterfaceResponse {
+        InterfaceResponse { interface, jumps: jumps.chunks_exact(components).map(local).collect(), memory }
+    }
 }
 
 /// Response of a law point, as far as it is kept.

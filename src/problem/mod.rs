@@ -18,6 +18,7 @@ mod quantity;
 mod rigid;
 mod step;
 mod stiffness;
+mod supports;
 mod survey;
 mod unjoined;
 mod unused;

@@ -18,6 +18,15 @@ pub struct Ramp {
     pub prescribed: [Vec<f64>; 2],
 }
 
+impl Ramp {
+    /// Forces and displacements at a load factor.
+    pub fn at(&self, load_factor: f64) -> [Vec<f64>; 2] {
+        [&self.force, &self.prescribed].map(|[start, end]| {
+            start.iter().zip(end).map(|(start, end)| start + load_factor * (end - start)).collect()
+        })
+    }
+}
+
 /// A weighted sum over dofs.
 #[derive(Debug, Clone)]
 pub enum LinearMeasure {

@@ -5,7 +5,6 @@ use crate::assembly::InterfaceOperator;
 use crate::history::converged::{Converged, InterfaceResponse};
 use crate::history::loading::{Ledger, LoadForces, StepLoad};
 use crate::history::state::ModelState;
-use crate::law::local;
 use crate::solver::{Factored, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp};
 
 /// One factorisation per set of supports, no iteration. An increment takes one solve, a step whose loads are affine in the
@@ -105,8 +104,7 @@ fn found(
 ) -> Converged {
     let answer = |(interface, jumps): (usize, Vec<f64>)| {
         let components = interfaces[interface].coupling.components;
-        let jumps = jumps.chunks_exact(components).map(local).collect();
-        InterfaceResponse { interface, jumps, memory: Vec::new() } // an elastic interface remembers nothing
+        InterfaceResponse::new(interface, components, &jumps, Vec::new()) // elastic: remembers nothing
     };
     let interfaces = jumps.into_iter().enumerate().map(answer).collect();
     Converged {

@@ -51,6 +51,25 @@ pub(in crate::history) struct Search {
     first: bool,
 }
 
+impl Search {
+    /// The last accepted unknowns, and a multiple of their last change beyond.
+    fn onwards(&self, ahead: f64) -> Vec<f64> {
+        if ahead == 0.0 {
+            return self.unknowns.clone();
+        }
+        let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
+        self.unknowns.iter().zip(&self.before).map(along).collect()
+    }
+
+    /// Takes unknowns, forces and viscous tractions of what is accepted; those before come back in their places.
+    fn accept(&mut self, (unknowns, forces, viscous): &mut (Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>)) {
+        std::mem::swap(&mut self.forces, forces);
+        std::mem::swap(&mut self.viscous, viscous);
+        std::mem::swap(&mut self.before, &mut self.unknowns);
+        std::mem::swap(&mut self.unknowns, unknowns);
+    }
+}
+
 /// Starting points of the search for an equilibrium.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::history) struct Ahead {

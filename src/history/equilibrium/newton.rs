@@ -9,7 +9,6 @@ use super::{
 use crate::history::converged::{Converged, InterfaceResponse, PointResponse};
 use crate::history::loading::{Ledger, LoadForces, StepLoad};
 use crate::history::state::ModelState;
-use crate::law::local;
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Constraint, Form, Iterate, LinearMeasure, Newton, NewtonSettings, NodalSolution,
@@ -75,15 +74,6 @@ impl<F: Form> NewtonEngine<'_, F> {
         })
     }
 
-    /// The last accepted unknowns, and a multiple of their last change beyond.
-    fn onwards(&self, ahead: f64) -> Vec<f64> {
-        if ahead == 0.0 {
-            return self.search.unknowns.clone();
-        }
-        let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
-        self.search.unknowns.iter().zip(&self.search.before).map(along).collect()
-    }
-
     /// Equilibrium under a load, sought from the better of two starts.
     fn solve_from(
         &mut self,
@@ -140,11 +130,10 @@ impl<F: Form> NewtonEngine<'_, F> {
         let (viscous, [released, bend]) = viscosity::account(laws, active, &self.search.viscous, &iterate);
         self.found = (iterate.x, iterate.forces, viscous);
         let components = self.problem.model.components;
-        let interfaces =
-            active.iter().zip(iterate.jumps).zip(iterate.memory).map(|((&interface, jumps), memory)| {
-                let jumps = jumps.chunks_exact(components).map(local).collect();
-                InterfaceResponse { interface, jumps, memory }
-            });
+        let answers = active.iter().zip(iterate.jumps).zip(iterate.memory);
+        let interfaces = answers.map(|((&interface, jumps), memory)| {
+            InterfaceResponse::new(interface, components, &jumps, memory)
+        });
         // one solve is all that a linear scene takes
         let solves = residuals.len() - 1;
         let iterations = if self.linear { solves - 1 } else { solves };
@@ -190,8 +179,10 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         complete: bool,
     ) -> Result<Converged, Failure> {
         let Ahead { changes, near } = ahead;
-        let starts =
-            [self.onwards(NEAR * changes), self.onwards(if near { NEAR * changes } else { changes })];
+        let starts = [
+            self.search.onwards(NEAR * changes),
+            self.search.onwards(if near { NEAR * changes } else { changes }),
+        ];
         let laws = Laws::alone(self.problem, &state.snapshot.states);
         self.solve_from(starts, &laws, load, complete)
     }
@@ -203,15 +194,10 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         Viscous { viscosity, ahead, strict }: Viscous,
         complete: bool,
     ) -> Result<Converged, Failure> {
-        let starts = [self.search.unknowns.clone(), self.onwards(ahead)];
-        let (problem, old) = (self.problem, &state.snapshot.states);
-        let laws = Laws {
-            problem,
-            old,
-            viscosity: Some(viscosity),
-            lags: self.search.lags && may_lag(self.problem, viscosity),
-            intact: None,
-        };
+        let starts = [self.search.unknowns.clone(), self.search.onwards(ahead)];
+        let lags = self.search.lags && may_lag(self.problem, viscosity);
+        let laws =
+            Laws { viscosity: Some(viscosity), lags, ..Laws::alone(self.problem, &state.snapshot.states) };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
         self.settings = NewtonSettings { tolerance, initial_tangent: false, ..settings };
@@ -245,7 +231,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn onset(&mut self, state: &ModelState, load: &StepLoad, now: &StepLoad, ahead: f64) -> Option<f64> {
-        let end = if ahead > 0.0 { Some(self.onwards(ahead)) } else { None };
+        let end = if ahead > 0.0 { Some(self.search.onwards(ahead)) } else { None };
         let settings = self.settings;
         late::first_onset(&mut self.view_mut()?, &state.snapshot.states, [load, now], end, settings)
     }
@@ -268,8 +254,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = PathPoint { x: self.search.unknowns.clone(), load_factor };
         let start = if path.ahead > 0.0 {
-            let extrapolate = |(now, before): (&f64, &f64)| now + path.ahead * (now - before);
-            let x = self.search.unknowns.iter().zip(&self.search.before).map(extrapolate).collect();
+            let x = self.search.onwards(path.ahead);
             Ok(PathPoint { x, load_factor: load_factor + path.ahead * path.last })
         } else {
             match path.amount {
@@ -284,10 +269,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         };
         let followed = newton.follow(form, &laws, start, &load, &constraint, self.settings);
         let (iterate, load_factor) = followed.map_err(Failure::Unconverged)?;
-        let at = |ends: &[Vec<f64>; 2]| -> Vec<f64> {
-            ends[0].iter().zip(&ends[1]).map(|(start, end)| start + load_factor * (end - start)).collect()
-        };
-        let (loaded, prescribed) = (at(&path.ramp.force), at(&path.ramp.prescribed));
+        let [loaded, prescribed] = path.ramp.at(load_factor);
         let solution = form.recover(&iterate.x, &iterate.forces, &loaded, &prescribed);
         let found = self.found(Some(solution), None, iterate.residuals.clone(), &laws, iterate);
         Ok((found, load_factor))
@@ -315,11 +297,6 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn accept(&mut self) {
-        let (unknowns, forces, viscous) = &mut self.found;
-        let search = &mut self.search;
-        std::mem::swap(&mut search.forces, forces);
-        std::mem::swap(&mut search.viscous, viscous);
-        std::mem::swap(&mut search.before, &mut search.unknowns);
-        std::mem::swap(&mut search.unknowns, unknowns);
+        self.search.accept(&mut self.found);
     }
 }
