@@ -68,7 +68,7 @@ fn pairing(bencher: Bencher, dofs: usize) {
         |name, of: usize, edges| Side { name, points: &meshes[of].points, edges, corners: &[], first: 0 };
     let scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
     bencher.bench_local(|| {
-        Coupling::build("joint", &[side("top", 0, &top)], &[side("bottom", 1, &bottom)], scheme)
+        Coupling::build("joint", &[side("top", 0, &top)], &[side("bottom", 1, &bottom)], scheme, &[])
             .unwrap_or_else(|error| unreachable!("{error}"))
     });
 }

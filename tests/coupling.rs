@@ -13,7 +13,7 @@ fn side<'a>(name: &'a str, points: &'a [[f64; 3]], edges: &'a [Facet]) -> Side<'
 }
 
 fn join(a: Side, b: Side, kind: JumpScheme, points: Points) -> midplane::error::Result<Coupling> {
-    Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed })
+    Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed }, &[])
 }
 
 /// An interface along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.

@@ -21,10 +21,13 @@ mod line;
 mod place;
 mod pointwise;
 mod projected;
+mod slaves;
 mod view;
 
 pub use line::{LineMidplane, Side, join};
-pub use place::{CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, SegmentView, Sides, Table};
+pub use place::{
+    CellView, Facets, Midplane, Nodes, OnFacet, Piece, Place, SegmentView, Sides, Slaved, Table,
+};
 
 use crate::error::Result;
 use crate::sparse::Csr;
@@ -38,6 +41,18 @@ pub enum JumpScheme {
     ProjectedLinear,
     /// Jump at quadrature points of every segment.
     Pointwise,
+}
+
+/// Support of a degree of freedom over all steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Support {
+    /// Free throughout.
+    #[default]
+    Free,
+    /// Fixed from the first step to the last.
+    Fixed,
+    /// Fixed, driven or held where it is in some step.
+    Moved,
 }
 
 /// Points of an interval at which the law acts.
@@ -119,11 +134,18 @@ impl LawPoint {
 }
 
 impl Coupling {
-    /// Joins two sides, each a list of curves. `name` is the interface's, for messages.
+    /// Joins two sides, each a list of curves. `name` is the interface's, for messages; `supports` are those of the model's dofs
+    /// over all steps, none if nothing is held.
     ///
     /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
-    pub fn build(name: &str, a: &[Side], b: &[Side], scheme: Scheme) -> Result<Coupling> {
-        let table = line::table(name, a, b, scheme)?;
+    pub fn build(
+        name: &str,
+        a: &[Side],
+        b: &[Side],
+        scheme: Scheme,
+        supports: &[Support],
+    ) -> Result<Coupling> {
+        let table = line::table(name, a, b, scheme, supports)?;
         let facet = table.sides[0].shapes[0];
         let components = facet.dimension() + 1; // facets bound what moves
         Ok(match scheme.kind {

@@ -64,6 +64,19 @@ pub struct Nodes {
     pub row: Vec<usize>,
     /// Half band width of the mass matrix.
     pub band: usize,
+    /// Components that are no unknowns.
+    pub slaved: Vec<Slaved>,
+}
+
+/// A component of a grid node that follows other nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slaved {
+    /// The node.
+    pub node: usize,
+    /// Its component, in x, y.
+    pub component: usize,
+    /// Nodes that it follows, with their weights; none where it is zero.
+    pub from: Vec<(usize, f64)>,
 }
 
 /// The table: everything of the geometry that a coupling is made of.

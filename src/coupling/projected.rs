@@ -7,8 +7,11 @@
 //! q runs over quadrature points of the segments, φ_i are the continuous functions of the grid (quadratic where both sides
 //! have quadratic edges and it is asked for, else linear), and the law acts at the quadrature points of the grid's cells. The pointwise scheme asks two unmatched faces to agree at more points
 //! than they have unknowns; this one asks for what the coarser face can give, so its error does not grow with stiffness.
+//!
+//! Components that follow others (`slaves`) are no unknowns: a = P â and G = P (Pᵀ M P)⁻¹ Pᵀ B, direction by direction.
 
 use super::place::{Nodes, Table};
+use super::slaves::Slaves;
 use super::{Coupling, LawPoint, jump};
 use crate::shape::vector::dot;
 use crate::sparse::{Banded, Csr};
@@ -18,7 +21,7 @@ const NEGLIGIBLE: f64 = 1e-17;
 
 /// The coupling of a table, displacements with so many components.
 pub(super) fn build(table: Table, components: usize) -> Coupling {
-    let Nodes { count, row, band } = &table.nodes;
+    let Nodes { count, row, band, .. } = &table.nodes;
     let (count, band) = (*count, *band);
     let width = components * (table.sides[0].nodes.len() + table.sides[1].nodes.len());
     // B by rows (grid node, component), M in its band
@@ -55,9 +58,11 @@ pub(super) fn build(table: Table, components: usize) -> Coupling {
         }
         own.clear();
     }
-    let b = Csr::from_triplets(components * count, width, &b);
-    let mass = Banded::factor(band, mass);
-    let jump = solve(&mass, &b, components, &table.nodes);
+    let slaves = Slaves::new(&table.nodes, components);
+    let b = Csr::from_triplets(components * count, width, &slaves.gathered(b));
+    let masses = slaves.masses(&mass, band);
+    let jump = slaves.spread(solve(&masses, &b, components, &table.nodes));
+    let mass = [Banded::factor(band, mass)];
     // the drawn gap, projected as the jump is
     let apart = Csr::from_triplets(components * count, 1, &apart);
     let apart = solve(&mass, &apart, components, &table.nodes);
@@ -75,8 +80,8 @@ pub(super) fn build(table: Table, components: usize) -> Coupling {
     Coupling::new(table, components, jump, points)
 }
 
-/// G = M⁻¹ B, column by column and component by component; what decays to nothing is dropped.
-fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Nodes) -> Csr {
+/// G = M⁻¹ B, column by column and component by component, one M for all or one for each; what decays to nothing is dropped.
+fn solve(masses: &[Banded], b: &Csr, components: usize, grid: &Nodes) -> Csr {
     let nodes = grid.count;
     let mut node_of = vec![0; nodes];
     grid.row.iter().enumerate().for_each(|(node, &row)| node_of[row] = node);
@@ -96,6 +101,7 @@ fn solve(mass: &Banded, b: &Csr, components: usize, grid: &Nodes) -> Csr {
             if first >= last {
                 continue;
             }
+            let mass = &masses[component.min(masses.len() - 1)];
             for i in mass.solve(&mut column, first, last) {
                 let row = components * node_of[i] + component;
                 largest[row] = largest[row].max(column[i].abs());

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::groups;
 use crate::assembly::{InterfaceOperator, Model};
-use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
+use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Support};
 use crate::error::Result;
 use crate::mesh::Facet;
 use crate::scene::{CouplingKind, Grid, Interface, OneOrMany, Quadrature, Scene};
@@ -95,8 +95,8 @@ pub(super) fn side(
 }
 
 impl PlannedInterface<'_> {
-    /// Builds the interface.
-    pub(super) fn join(&self, model: &Model) -> Result<InterfaceOperator> {
+    /// Builds the interface; `supports` by dof over all steps.
+    pub(super) fn join(&self, model: &Model, supports: &[Support]) -> Result<InterfaceOperator> {
         let sides: [Vec<Side>; 2] = [0, 1].map(|i| {
             let curves = self.sides[i].iter().map(|curve| {
                 let (mesh, first) =
@@ -118,7 +118,8 @@ impl PlannedInterface<'_> {
             Quadrature::Gauss => Points::Gauss,
             Quadrature::Lobatto => Points::Lobatto,
         };
-        let coupling = Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap })?;
+        let coupling =
+            Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap }, supports)?;
         let subdomains = [0, 1].map(|i| self.sides[i][0].subdomain);
         // the coupling's nodes are those of the model
         Ok(InterfaceOperator::new(&self.name, coupling, subdomains, [0, 0], model.dofs(), model.thickness))

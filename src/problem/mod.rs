@@ -121,8 +121,10 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     let mut warnings = warnings::locking(&model.subdomains);
     let mut interfaces = Vec::new();
     let plans = plan::plans(scene, &model)?;
+    let supports = supports::over_all_steps(scene, &model)?;
     for (k, plan) in plans.iter().enumerate() {
-        let operator = known.get(k).map_or_else(|| plan.join(&model), |known| Ok(known.clone()))?;
+        let operator =
+            known.get(k).map_or_else(|| plan.join(&model, &supports), |known| Ok(known.clone()))?;
         stiffness::check_precision(scene, &model, &operator, plan)?;
         warnings.extend(warnings::of_interface(scene, &model, &operator, plan));
         interfaces.push(BoundInterface::new(scene, &model, &operator, plan)?);

@@ -9,6 +9,7 @@ use super::quantity::Quantity;
 use super::step::Moving;
 use super::{along, groups};
 use crate::assembly::Model;
+use crate::coupling::Support;
 use crate::error::Result;
 use crate::mesh::Group;
 use crate::scene::{Direction, FormulaPlace, Scene, Step, Value, Variable};
@@ -29,6 +30,32 @@ impl Supports {
     pub(super) fn none(n: usize) -> Supports {
         Supports { constrained: vec![false; n], prescribed: vec![0.0; n], frozen: vec![false; n] }
     }
+}
+
+/// Support of every dof over all steps.
+pub(super) fn over_all_steps(scene: &Scene, model: &Model) -> Result<Vec<Support>> {
+    let mut all = vec![Support::Free; model.dofs()];
+    for (index, step) in scene.steps.iter().enumerate() {
+        let fixed = if index == 0 { Support::Fixed } else { Support::Moved };
+        let supports = prescribed(step).map(|(key, group, direction, value)| {
+            (key, group, direction, if value.is_none() { fixed } else { Support::Moved })
+        });
+        let moved = named("hold", &step.hold).chain(named("release", &step.release));
+        let moved = moved.map(|(key, group, direction)| (key, group, direction, Support::Moved));
+        for (key, group, direction, support) in supports.chain(moved) {
+            let path = ["steps", &index.to_string(), key, group];
+            for dof in dofs(scene, model, &path, group, direction)? {
+                all[dof] = match (all[dof], support) {
+                    // fixed anew where it is fixed
+                    (Support::Fixed, Support::Moved) if key == "fix" => Support::Fixed,
+                    (Support::Free, Support::Moved) if key == "release" => Support::Free,
+                    (Support::Moved, _) => Support::Moved,
+                    (_, support) => support,
+                };
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// Displacements prescribed by a step: (key, group, direction, value), no value for zero.

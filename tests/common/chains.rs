@@ -105,7 +105,7 @@ pub fn join_with(a: &[&Curve], b: &[&Curve], scheme: Scheme) -> Result<Coupling>
     let (first_a, first_b) = (sides(a), sides(b));
     let of_a: Vec<Side> = a.iter().zip(&first_a).map(|(curve, &first)| curve.side("a.side", first)).collect();
     let of_b: Vec<Side> = b.iter().zip(&first_b).map(|(curve, &first)| curve.side("b.side", first)).collect();
-    Coupling::build("joint", &of_a, &of_b, scheme)
+    Coupling::build("joint", &of_a, &of_b, scheme, &[])
 }
 
 /// A displacement field of both sides in the order of the coupling's columns.

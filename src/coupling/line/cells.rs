@@ -1,6 +1,6 @@
 //! Cells of the grid on a line, and their functions.
 
-use super::super::place::Nodes;
+use super::super::place::{Nodes, Slaved};
 use super::{LineMidplane, grid};
 use crate::shape::{lagrange2, lagrange3};
 
@@ -84,8 +84,26 @@ impl MidplaneGrid {
         }
     }
 
+    /// Nodes of a piece and their arc lengths, in order; on a loop the seam only at its start.
+    pub fn along(&self, piece: usize) -> Vec<(usize, f64)> {
+        let mut found: Vec<(usize, f64)> = Vec::new();
+        for Cell { start, end, nodes, .. } in self.cells.iter().filter(|cell| cell.piece == piece) {
+            if found.is_empty() {
+                found.push((nodes[0], *start));
+            }
+            if self.quadratic {
+                found.push((nodes[2], 0.5 * (start + end)));
+            }
+            found.push((nodes[1], *end));
+        }
+        if self.closed && found.len() > 1 && found[0].0 == found[found.len() - 1].0 {
+            found.pop();
+        }
+        found
+    }
+
     /// Its nodes, as the mass matrix sees them.
-    pub fn nodes(&self) -> Nodes {
-        Nodes { count: self.nodes, row: self.row.clone(), band: self.band() }
+    pub fn nodes(&self, slaved: Vec<Slaved>) -> Nodes {
+        Nodes { count: self.nodes, row: self.row.clone(), band: self.band(), slaved }
     }
 }

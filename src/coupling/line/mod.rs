@@ -12,6 +12,7 @@ mod pair;
 mod parts;
 mod seam;
 mod segment;
+mod slaved;
 mod table;
 
 pub use link::Side;

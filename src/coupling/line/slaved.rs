@@ -1,0 +1,120 @@
+//! Components of grid nodes that carry nothing of their own: both sides are held there.
+//!
+//! ```text
+//!   ▐●──────●──────●──     end nodes held on both sides: two first edges of different length have two hats that no jump
+//!   ▐●────●────●────●      of the grid can make equal; a stiff interface would press for it
+//! ```
+//!
+//! Such a component is no unknown. It follows the two nearest nodes that are kept, linearly; at a plane of symmetry, where only
+//! the direction along C is fixed for good, it is zero, as is the shear. Kept are nodes where first edges match (the classical
+//! element), nodes next to others that are held alike, and all where fewer than two would remain. What is held in any step is
+//! held here, so that the grid is one for the whole history.
+
+use super::super::Support;
+use super::super::place::Slaved;
+use super::cells::MidplaneGrid;
+use super::{Chain, LineMidplane};
+use crate::shape::vector::dot;
+
+/// C runs along an axis within this.
+const ALONG: f64 = 1e-6;
+/// A grid node lies on a node of a side within this, of ξ.
+const ON_NODE: f64 = 1e-9;
+const AXES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
+
+/// A node of the grid on its way along a piece.
+struct GridNode {
+    node: usize,
+    s: f64,
+    /// How both sides are held together, by direction.
+    held: [Support; 2],
+}
+
+/// The slaved components of a grid; `supports` by dof of the model.
+pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, supports: &[Support]) -> Vec<Slaved> {
+    let mut found = Vec::new();
+    if supports.iter().all(|support| *support == Support::Free) {
+        return found;
+    }
+    for (p, piece) in c.pieces.iter().enumerate() {
+        let nodes: Vec<GridNode> =
+            grid.along(p).into_iter().map(|(node, s)| grid_node(c, p, node, s, supports)).collect();
+        for (d, axis) in AXES.into_iter().enumerate() {
+            let held = |i: usize| nodes.get(i).is_some_and(|node| node.held[d] != Support::Free);
+            let alone = |i: usize| held(i) && !held(i + 1) && !(i > 0 && held(i - 1));
+            let slaves: Vec<usize> = (0..nodes.len()).filter(|&i| alone(i)).collect();
+            if piece.closed || nodes.len() < slaves.len() + 2 {
+                continue;
+            }
+            for &i in &slaves {
+                let GridNode { node, s, held } = nodes[i];
+                let (segment, eta) = c.locate(piece, s);
+                let [_, tangent] = c.spot(segment, eta).rotation;
+                let symmetric = held[d] == Support::Fixed
+                    && held[1 - d] == Support::Free
+                    && dot(tangent, axis).abs() >= 1.0 - ALONG;
+                let from = if symmetric { Vec::new() } else { line_through(&nodes, &slaves, s) };
+                found.push(Slaved { node, component: d, from });
+            }
+        }
+    }
+    found
+}
+
+/// Weights of the two nearest nodes that are kept: the line through them at s.
+fn line_through(nodes: &[GridNode], slaves: &[usize], s: f64) -> Vec<(usize, f64)> {
+    let mut kept: Vec<&GridNode> =
+        nodes.iter().enumerate().filter(|(i, _)| !slaves.contains(i)).map(|(_, node)| node).collect();
+    kept.sort_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()));
+    let [a, b, ..] = kept[..] else { return Vec::new() };
+    let share = (s - a.s) / (b.s - a.s);
+    vec![(a.node, 1.0 - share), (b.node, share)]
+}
+
+/// A node of the grid with the supports that both sides have there; free where the edges next to it match.
+fn grid_node(c: &LineMidplane, p: usize, node: usize, s: f64, supports: &[Support]) -> GridNode {
+    let piece = &c.pieces[p];
+    let (segment, eta) = c.locate(piece, s);
+    let spot = c.spot(segment, eta);
+    let g = &c.segments[segment];
+    let sides = [(&c.a, g.edge_a, spot.xi_a), (&c.b, g.edge_b, spot.xi_b)];
+    let held = [0, 1].map(|d| {
+        let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, supports));
+        if a == Support::Fixed && b == Support::Fixed {
+            Support::Fixed
+        } else if a == Support::Free || b == Support::Free {
+            Support::Free
+        } else {
+            Support::Moved
+        }
+    });
+    let held = if matches(c, p, s) { [Support::Free; 2] } else { held };
+    GridNode { node, s, held }
+}
+
+/// Support of a side at a place: that of the node there, or what all nodes of the edge have in common.
+fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) -> Support {
+    let of = |place: usize| supports.get(2 * chain.nodes[place] + d).copied().unwrap_or(Support::Free);
+    let [start, end] = chain.ends[edge].map(of);
+    if (xi + 1.0).abs() <= ON_NODE {
+        return start;
+    }
+    if (xi - 1.0).abs() <= ON_NODE {
+        return end;
+    }
+    match (start, end, chain.mids[edge].map_or(start, of)) {
+        (Support::Free, ..) | (_, Support::Free, _) | (.., Support::Free) => Support::Free,
+        (Support::Fixed, Support::Fixed, Support::Fixed) => Support::Fixed,
+        _ => Support::Moved,
+    }
+}
+
+/// True if the edges of both sides next to a place are the same.
+fn matches(c: &LineMidplane, p: usize, s: f64) -> bool {
+    let piece = &c.pieces[p];
+    let whole = |xi: [f64; 2]| xi == [-1.0, 1.0];
+    let near = c.segments[piece.segments.clone()].iter().filter(|g| g.start == s || g.end == s);
+    let mut count = 0;
+    let all = near.inspect(|_| count += 1).all(|g| whole(g.xi_a) && whole(g.xi_b));
+    all && count > 0
+}
