@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use divan::{Bencher, black_box};
 use midplane::assembly::{InterfaceTangent, add_stiffness};
-use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Surroundings};
 use midplane::law::{Integration, Local, State};
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
@@ -68,8 +68,14 @@ fn pairing(bencher: Bencher, dofs: usize) {
         |name, of: usize, edges| Side { name, points: &meshes[of].points, edges, corners: &[], first: 0 };
     let scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
     bencher.bench_local(|| {
-        Coupling::build("joint", &[side("top", 0, &top)], &[side("bottom", 1, &bottom)], scheme, &[])
-            .unwrap_or_else(|error| unreachable!("{error}"))
+        Coupling::build(
+            "joint",
+            &[side("top", 0, &top)],
+            &[side("bottom", 1, &bottom)],
+            scheme,
+            Surroundings::default(),
+        )
+        .unwrap_or_else(|error| unreachable!("{error}"))
     });
 }
 

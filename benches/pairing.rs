@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use indexmap::IndexMap;
-use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, join};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Surroundings, join};
 use midplane::mesh::{Cells, Facet, Group, Mesh, touching};
 use midplane::shape::Shape;
 use midplane::shape::vector::in_space;
@@ -41,7 +41,7 @@ fn measure(name: &str, n: usize, closed: bool, at: &dyn Fn(f64, f64) -> [f64; 2]
     let (seconds, midplane) = least(|| join("joint", &a, &b, Gap::Closed));
     let segments = midplane.map_or(0, |midplane| midplane.segments.len());
     println!("    {name:<10} pairing          {seconds:8.3} s, {segments} segments");
-    let (seconds, _) = least(|| Coupling::build("joint", &a, &b, SCHEME, &[]));
+    let (seconds, _) = least(|| Coupling::build("joint", &a, &b, SCHEME, Surroundings::default()));
     println!("    {name:<10} with operator    {seconds:8.3} s");
 }
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{even, graded};
-use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Surroundings};
 use midplane::mesh::Facet;
 use midplane::shape::vector::{in_plane, in_space};
 use proptest::prelude::*;
@@ -13,7 +13,7 @@ fn side<'a>(name: &'a str, points: &'a [[f64; 3]], edges: &'a [Facet]) -> Side<'
 }
 
 fn join(a: Side, b: Side, kind: JumpScheme, points: Points) -> midplane::error::Result<Coupling> {
-    Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed }, &[])
+    Coupling::build("joint", &[a], &[b], Scheme { kind, points, gap: Gap::Closed }, Surroundings::default())
 }
 
 /// An interface along a line through `origin` at an angle: nodes of A and B at the given places, B `gap` above A.

@@ -77,3 +77,124 @@ fn a_clamped_end_carries_no_spurious_normal_traction() {
         }
     }
 }
+
+/// Four blocks, or two under one, around (1, 1), with the exact field of a continuous body on their outer sides:
+///
+/// ```text
+/// Airy φ = x³y − xy³ (from (0.4, 0.7)):  σ_xx = −6xy, σ_yy = 6xy, σ_xy = 3y² − 3x²
+/// u = (1+ν)/E (y³ − 3x²y),  v = (1+ν)/E (3xy² − x³)
+/// ```
+/// Largest error of the traction within 0.3 of the junction, of the largest stress. `e`: edges of the blocks in x and y.
+fn junction(e: [[usize; 2]; 4], shape: Shape, k: f64, t: bool) -> f64 {
+    let flat = |x: f64, y: f64| [x, y];
+    let at = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    let names = ["sw", "se", "nw", "ne"];
+    let sides = [["left", "bottom"], ["right", "bottom"], ["left", "top"], ["right", "top"]];
+    let mut meshes: Vec<_> = (0..4)
+        .map(|i| {
+            rectangle(
+                &even(at[i][0], at[i][0] + 1.0, e[i][0]),
+                &even(at[i][1], at[i][1] + 1.0, e[i][1]),
+                shape,
+                flat,
+            )
+        })
+        .collect();
+    let mut names: Vec<&str> = names.to_vec();
+    let mut sides: Vec<Vec<&str>> = sides.iter().map(|s| s.to_vec()).collect();
+    let mut ints = vec![
+        ("sw.right", "se.left"),
+        ("nw.right", "ne.left"),
+        ("sw.top", "nw.bottom"),
+        ("se.top", "ne.bottom"),
+    ];
+    if t {
+        // one block on top
+        meshes.truncate(2);
+        names.truncate(2);
+        sides.truncate(2);
+        meshes.push(rectangle(&even(0.0, 2.0, 2 * e[2][0] + 1), &even(1.0, 2.0, e[2][1]), shape, flat));
+        names.push("top");
+        sides.push(vec!["left", "right", "top"]);
+        ints = vec![("sw.right", "se.left"), ("sw.top", "top.bottom"), ("se.top", "top.bottom")];
+    }
+    let nu = 0.3;
+    let c = (1.0 + nu) / 1e4;
+    let subs: Vec<String> =
+        names.iter().map(|n| format!(r#""{n}": {{ "msh": "{n}", "material": "rock" }}"#)).collect();
+    let disp: Vec<String> = names.iter().zip(&sides).flat_map(|(n, s)| s.iter().map(move |s| format!(
+        r#""{n}.{s}": {{ "x": "{c:e}*((y-0.7)^3 - 3*(x-0.4)^2*(y-0.7))", "y": "{c:e}*(3*(x-0.4)*(y-0.7)^2 - (x-0.4)^3)" }}"#))).collect();
+    let laws: Vec<String> = ints.iter().enumerate().map(|(i, (a, b))| format!(
+        r#""j{i}": {{ "side_a": "{a}", "side_b": "{b}", "law": {{ "type": "elastic", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e} }} }}"#)).collect();
+    let text = format!(
+        r#"{{ "plane": "stress", "subdomains": {{ {} }}, "materials": {{ "rock": {{ "young": 1e4, "poisson": {nu} }} }},
+        "interfaces": {{ {} }}, "steps": [ {{ "name": "go", "displace": {{ {} }} }} ] }}"#,
+        subs.join(", "),
+        laws.join(", "),
+        disp.join(", ")
+    );
+    let problem = bind(&text, meshes).unwrap();
+    let (states, _) = solve(&problem);
+    let mut near = 0.0_f64;
+    for (j, interface) in problem.model.interfaces.iter().enumerate() {
+        for (point, t) in interface.coupling.points.iter().zip(&states[0].snapshot.tractions[j]) {
+            let [x, y] = [point.position[0] - 0.4, point.position[1] - 0.7];
+            let (xx, yy, xy) = (-6.0 * x * y, 6.0 * x * y, 3.0 * y * y - 3.0 * x * x);
+            let [[nx, ny, _], [tx, ty, _], _] = point.rotation;
+            let exact = [
+                nx * nx * xx + ny * ny * yy + 2.0 * nx * ny * xy,
+                nx * tx * xx + ny * ty * yy + (nx * ty + ny * tx) * xy,
+            ];
+            let off = (t[0] - exact[0]).hypot(t[1] - exact[1]) / 6.0;
+            let r = (point.position[0] - 1.0).hypot(point.position[1] - 1.0);
+            near = if r < 0.3 { near.max(off) } else { near };
+        }
+    }
+    near
+}
+
+#[test]
+fn next_to_junctions_tractions_follow_the_field() {
+    const COARSE: [[[usize; 2]; 4]; 2] = [[[6, 5], [7, 8], [5, 9], [8, 6]], [[8, 9], [9, 8], [9, 8], [8, 9]]];
+    for t in [false, true] {
+        for shape in [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8] {
+            for coarse in COARSE {
+                let fine = coarse.map(|edges| edges.map(|n| 2 * n));
+                let [near, nearer] = [coarse, fine].map(|edges| junction(edges, shape, 1e10, t));
+                let stiffer = junction(coarse, shape, 1e13, t);
+                let what = format!("{} {} {coarse:?}", if t { "T" } else { "X" }, shape.label());
+                println!("{what}: {near:.4}, {nearer:.4} on half the edges");
+                assert!((stiffer - near).abs() <= 0.02 * near, "{what}: {near} {stiffer}");
+                assert!(near < 0.06 && nearer < 0.025, "{what}: {near} {nearer}");
+            }
+        }
+    }
+}
+
+/// The grid is one for the whole history: a support that comes in a later step slaves the same components.
+#[test]
+fn a_support_that_comes_later_makes_the_same_grid() {
+    let joint = |steps: &str| {
+        let layer = |y: [f64; 2], n: usize| {
+            rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 3), Shape::Quadrilateral4, |x, y| [x, y])
+        };
+        let text = format!(
+            r#"{{ "plane": "strain",
+              "subdomains": {{ "lower": {{ "msh": "l", "material": "rock" }}, "upper": {{ "msh": "u", "material": "rock" }} }},
+              "materials": {{ "rock": {{ "young": 1e4, "poisson": 0.3 }} }},
+              "interfaces": {{ "joint": {{ "side_a": "lower.top", "side_b": "upper.bottom",
+                "law": {{ "type": "elastic", "normal_stiffness": 1e9, "tangential_stiffness": 1e9 }} }} }},
+              "steps": [ {steps} ] }}"#
+        );
+        let problem = bind(&text, vec![layer([0.0, 0.5], 12), layer([0.5, 1.0], 13)]).unwrap();
+        problem.model.interfaces[0].coupling.jump.clone()
+    };
+    let held = r#"{ "name": "a", "fix": { "lower.left": ["x", "y"], "upper.left": ["x", "y"] } }"#;
+    let later = r#"{ "name": "a", "fix": { "lower.left": ["x", "y"], "lower.bottom": ["x", "y"] } },
+                   { "name": "b", "hold": { "upper.left": ["x", "y"] } }"#;
+    let gone = r#"{ "name": "a", "fix": { "lower.left": ["x", "y"], "upper.left": ["x", "y"] } },
+                  { "name": "b", "fix": { "lower.bottom": ["x", "y"] }, "release": { "upper.left": ["x", "y"] } }"#;
+    let free = r#"{ "name": "a", "fix": { "lower.left": ["x", "y"] } }"#;
+    let [held, later, gone, free] = [held, later, gone, free].map(joint);
+    assert!(held == later && held == gone && held != free);
+}

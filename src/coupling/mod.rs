@@ -55,6 +55,22 @@ pub enum Support {
     Moved,
 }
 
+/// What an interface has around it, beyond its two sides: it says which ends of the grid can't carry a jump of their own.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Surroundings<'a> {
+    /// Support of every dof of the model; none if nothing is held.
+    pub supports: &'a [Support],
+    /// True for nodes of the model at which interfaces of more than two bodies meet; none if there are none.
+    pub junctions: &'a [bool],
+}
+
+impl Surroundings<'_> {
+    /// True if nothing is held and nothing meets.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.supports.iter().all(|support| *support == Support::Free) && !self.junctions.contains(&true)
+    }
+}
+
 /// Points of an interval at which the law acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Points {
@@ -134,8 +150,7 @@ impl LawPoint {
 }
 
 impl Coupling {
-    /// Joins two sides, each a list of curves. `name` is the interface's, for messages; `supports` are those of the model's dofs
-    /// over all steps, none if nothing is held.
+    /// Joins two sides, each a list of curves. `name` is the interface's, for messages.
     ///
     /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
     pub fn build(
@@ -143,9 +158,9 @@ impl Coupling {
         a: &[Side],
         b: &[Side],
         scheme: Scheme,
-        supports: &[Support],
+        around: Surroundings,
     ) -> Result<Coupling> {
-        let table = line::table(name, a, b, scheme, supports)?;
+        let table = line::table(name, a, b, scheme, around)?;
         let facet = table.sides[0].shapes[0];
         let components = facet.dimension() + 1; // facets bound what moves
         Ok(match scheme.kind {

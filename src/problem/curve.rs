@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::groups;
 use crate::assembly::{InterfaceOperator, Model};
-use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Support};
+use crate::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Surroundings};
 use crate::error::Result;
 use crate::mesh::Facet;
 use crate::scene::{CouplingKind, Grid, Interface, OneOrMany, Quadrature, Scene};
@@ -53,8 +53,8 @@ impl<'a> Joining<'a> {
     }
 }
 
-/// Joinings of the interfaces of a scene, by their keys: scenes that agree in it, on the same meshes of the same subdomains,
-/// have the same interfaces.
+/// Joinings of the interfaces of a scene, by their keys: scenes that agree in it and in their `duties`, on the same meshes of the
+/// same subdomains, have the same interfaces.
 pub fn joinings(scene: &Scene) -> Vec<(&str, Joining<'_>)> {
     scene.interfaces.iter().map(|(entry, stated)| (entry.as_str(), Joining::of(stated))).collect()
 }
@@ -95,8 +95,8 @@ pub(super) fn side(
 }
 
 impl PlannedInterface<'_> {
-    /// Builds the interface; `supports` by dof over all steps.
-    pub(super) fn join(&self, model: &Model, supports: &[Support]) -> Result<InterfaceOperator> {
+    /// Builds the interface.
+    pub(super) fn join(&self, model: &Model, around: Surroundings) -> Result<InterfaceOperator> {
         let sides: [Vec<Side>; 2] = [0, 1].map(|i| {
             let curves = self.sides[i].iter().map(|curve| {
                 let (mesh, first) =
@@ -119,7 +119,7 @@ impl PlannedInterface<'_> {
             Quadrature::Lobatto => Points::Lobatto,
         };
         let coupling =
-            Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap }, supports)?;
+            Coupling::build(&self.name, &sides[0], &sides[1], Scheme { kind, points, gap }, around)?;
         let subdomains = [0, 1].map(|i| self.sides[i][0].subdomain);
         // the coupling's nodes are those of the model
         Ok(InterfaceOperator::new(&self.name, coupling, subdomains, [0, 0], model.dofs(), model.thickness))

@@ -34,6 +34,7 @@ pub use probes::{BoundProbe, ProbeInput};
 pub use rigid::is_constrained;
 pub use step::BoundStep;
 pub use stiffness::stiffness_number;
+pub use supports::{Duty, duties};
 pub use survey::Survey;
 pub use unused::unused_groups;
 
@@ -42,6 +43,7 @@ use unjoined::Connectivity;
 
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::{Elasticity, PlaneState};
+use crate::coupling::Surroundings;
 use crate::error::{Result, Warning};
 use crate::law::Law;
 use crate::mesh::Mesh;
@@ -121,10 +123,10 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     let mut warnings = warnings::locking(&model.subdomains);
     let mut interfaces = Vec::new();
     let plans = plan::plans(scene, &model)?;
-    let supports = supports::over_all_steps(scene, &model)?;
+    let (supports, junctions) = (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans));
+    let around = Surroundings { supports: &supports, junctions: &junctions };
     for (k, plan) in plans.iter().enumerate() {
-        let operator =
-            known.get(k).map_or_else(|| plan.join(&model, &supports), |known| Ok(known.clone()))?;
+        let operator = known.get(k).map_or_else(|| plan.join(&model, around), |known| Ok(known.clone()))?;
         stiffness::check_precision(scene, &model, &operator, plan)?;
         warnings.extend(warnings::of_interface(scene, &model, &operator, plan));
         interfaces.push(BoundInterface::new(scene, &model, &operator, plan)?);

@@ -8,6 +8,24 @@ use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::Scene;
 
+/// Nodes at which interfaces of more than two bodies meet.
+pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> {
+    let mut bodies: HashMap<usize, Vec<usize>> = HashMap::new();
+    for plan in plans {
+        let pair: Vec<usize> = plan.sides.iter().flatten().map(|curve| curve.subdomain).collect();
+        for curve in plan.sides.iter().flatten() {
+            let first = model.subdomains[curve.subdomain].first_node;
+            for node in curve.edges.iter().flat_map(|edge| edge.nodes()) {
+                let met = bodies.entry(first + node).or_default();
+                met.extend(pair.iter().filter(|body| !met.contains(body)).copied().collect::<Vec<_>>());
+            }
+        }
+    }
+    let mut found = vec![false; model.nodes()];
+    bodies.iter().filter(|(_, met)| met.len() > 2).for_each(|(&node, _)| found[node] = true);
+    found
+}
+
 /// All interfaces in the order of the scene; those of one `between` in the order of the subdomains.
 pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<PlannedInterface<'a>>> {
     let mut named: HashMap<&str, PlannedInterface> = HashMap::new();

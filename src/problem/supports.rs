@@ -32,27 +32,38 @@ impl Supports {
     }
 }
 
+/// A direction of a group that a step fixes, displaces, holds or releases.
+#[derive(Debug, Clone, Copy)]
+pub struct Duty<'a> {
+    step: usize,
+    key: &'static str,
+    group: &'a str,
+    direction: Direction,
+}
+
+/// All of them, in the order of the steps: with the joinings they decide the interfaces.
+pub fn duties(scene: &Scene) -> Vec<Duty<'_>> {
+    let mut all = Vec::new();
+    for (step, stated) in scene.steps.iter().enumerate() {
+        let moved = named("hold", &stated.hold).chain(named("release", &stated.release));
+        let fixed = prescribed(stated).map(|(key, group, direction, _)| (key, group, direction));
+        all.extend(fixed.chain(moved).map(|(key, group, direction)| Duty { step, key, group, direction }));
+    }
+    all
+}
+
 /// Support of every dof over all steps.
 pub(super) fn over_all_steps(scene: &Scene, model: &Model) -> Result<Vec<Support>> {
     let mut all = vec![Support::Free; model.dofs()];
-    for (index, step) in scene.steps.iter().enumerate() {
-        let fixed = if index == 0 { Support::Fixed } else { Support::Moved };
-        let supports = prescribed(step).map(|(key, group, direction, value)| {
-            (key, group, direction, if value.is_none() { fixed } else { Support::Moved })
-        });
-        let moved = named("hold", &step.hold).chain(named("release", &step.release));
-        let moved = moved.map(|(key, group, direction)| (key, group, direction, Support::Moved));
-        for (key, group, direction, support) in supports.chain(moved) {
-            let path = ["steps", &index.to_string(), key, group];
-            for dof in dofs(scene, model, &path, group, direction)? {
-                all[dof] = match (all[dof], support) {
-                    // fixed anew where it is fixed
-                    (Support::Fixed, Support::Moved) if key == "fix" => Support::Fixed,
-                    (Support::Free, Support::Moved) if key == "release" => Support::Free,
-                    (Support::Moved, _) => Support::Moved,
-                    (_, support) => support,
-                };
-            }
+    for Duty { step, key, group, direction } in duties(scene) {
+        let path = ["steps", &step.to_string(), key, group];
+        for dof in dofs(scene, model, &path, group, direction)? {
+            all[dof] = match (all[dof], key) {
+                (Support::Free, "fix") if step == 0 => Support::Fixed,
+                (Support::Fixed, "fix") => Support::Fixed,
+                (Support::Free, "release") => Support::Free,
+                _ => Support::Moved,
+            };
         }
     }
     Ok(all)

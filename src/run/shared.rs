@@ -9,7 +9,7 @@ use crate::assembly::InterfaceOperator;
 use crate::error::Result;
 use crate::history::memory;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
-use crate::problem::joinings;
+use crate::problem::{duties, joinings};
 use crate::scene::Scene;
 use crate::solver::SubdomainCache;
 
@@ -75,10 +75,11 @@ impl Shared {
     }
 }
 
-/// All that decides the interfaces of a scene on these meshes: everything but laws, materials, loads and output.
+/// All that decides the interfaces of a scene on these meshes: everything but laws, materials, loads and output;
+/// supports decide where ends of the grid follow their neighbours.
 pub(super) fn interfaces_key(scene: &Scene, files: &[PathBuf], file_of: &[usize]) -> String {
     let parts: Vec<_> = scene.subdomains.iter().map(|(name, part)| (name, &part.surface)).collect();
-    format!("{:?}", (files, file_of, scene.thickness.to_bits(), parts, joinings(scene)))
+    format!("{:?}", (files, file_of, scene.thickness.to_bits(), parts, joinings(scene), duties(scene)))
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

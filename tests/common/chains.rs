@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // each test file uses a part of it
 
-use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side};
+use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side, Surroundings};
 use midplane::error::Result;
 use midplane::mesh::Facet;
 use midplane::shape::vector::{in_plane, in_space};
@@ -105,7 +105,7 @@ pub fn join_with(a: &[&Curve], b: &[&Curve], scheme: Scheme) -> Result<Coupling>
     let (first_a, first_b) = (sides(a), sides(b));
     let of_a: Vec<Side> = a.iter().zip(&first_a).map(|(curve, &first)| curve.side("a.side", first)).collect();
     let of_b: Vec<Side> = b.iter().zip(&first_b).map(|(curve, &first)| curve.side("b.side", first)).collect();
-    Coupling::build("joint", &of_a, &of_b, scheme, &[])
+    Coupling::build("joint", &of_a, &of_b, scheme, Surroundings::default())
 }
 
 /// A displacement field of both sides in the order of the coupling's columns.

@@ -49,6 +49,11 @@ impl MidplaneGrid {
         grid
     }
 
+    /// True if its cells have a node in their middle.
+    pub fn is_quadratic(&self) -> bool {
+        self.quadratic
+    }
+
     /// Polynomial order of a cell.
     fn order(&self) -> usize {
         if self.quadratic { 2 } else { 1 }

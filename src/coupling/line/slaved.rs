@@ -1,17 +1,18 @@
-//! Components of grid nodes that carry nothing of their own: both sides are held there.
+//! Components of grid nodes that carry nothing of their own: ends at which the sides leave less than the grid asks for.
 //!
 //! ```text
 //!   ▐●──────●──────●──     end nodes held on both sides: two first edges of different length have two hats that no jump
 //!   ▐●────●────●────●      of the grid can make equal; a stiff interface would press for it
 //! ```
 //!
-//! Such a component is no unknown. It follows the two nearest nodes that are kept, linearly; at a plane of symmetry, where only
-//! the direction along C is fixed for good, it is zero, as is the shear. Kept are nodes where first edges match (the classical
-//! element), nodes next to others that are held alike, and all where fewer than two would remain. What is held in any step is
-//! held here, so that the grid is one for the whole history.
+//! The same holds where more than two bodies meet: the jumps around the point sum to zero. Such a component is no unknown. It
+//! follows the two nearest nodes that are kept, linearly; at a plane of symmetry, where only the direction along C is fixed for
+//! good, it is zero, as is the shear. Kept are nodes where first edges match (the classical element), nodes next to others that
+//! are held alike, all where fewer than two would remain, and all of a linear grid on quadratic sides, which leave it room. What
+//! is held in any step is held here, so that the grid is one for the whole history.
 
-use super::super::Support;
 use super::super::place::Slaved;
+use super::super::{Support, Surroundings};
 use super::cells::MidplaneGrid;
 use super::{Chain, LineMidplane};
 use crate::shape::vector::dot;
@@ -28,31 +29,37 @@ struct GridNode {
     s: f64,
     /// How both sides are held together, by direction.
     held: [Support; 2],
+    /// More than two bodies meet there.
+    junction: bool,
 }
 
-/// The slaved components of a grid; `supports` by dof of the model.
-pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, supports: &[Support]) -> Vec<Slaved> {
+/// The slaved components of a grid.
+pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, around: Surroundings) -> Vec<Slaved> {
     let mut found = Vec::new();
-    if supports.iter().all(|support| *support == Support::Free) {
+    let roomy = !grid.is_quadratic() && c.a.is_quadratic() && c.b.is_quadratic();
+    if around.is_empty() || roomy {
         return found;
     }
     for (p, piece) in c.pieces.iter().enumerate() {
         let nodes: Vec<GridNode> =
-            grid.along(p).into_iter().map(|(node, s)| grid_node(c, p, node, s, supports)).collect();
+            grid.along(p).into_iter().map(|(node, s)| grid_node(c, p, node, s, around)).collect();
         for (d, axis) in AXES.into_iter().enumerate() {
             let held = |i: usize| nodes.get(i).is_some_and(|node| node.held[d] != Support::Free);
             let alone = |i: usize| held(i) && !held(i + 1) && !(i > 0 && held(i - 1));
-            let slaves: Vec<usize> = (0..nodes.len()).filter(|&i| alone(i)).collect();
+            let ends = |i: usize| i == 0 || i + 1 == nodes.len();
+            let slaves: Vec<usize> =
+                (0..nodes.len()).filter(|&i| alone(i) || ends(i) && nodes[i].junction).collect();
             if piece.closed || nodes.len() < slaves.len() + 2 {
                 continue;
             }
             for &i in &slaves {
-                let GridNode { node, s, held } = nodes[i];
+                let GridNode { node, s, held, junction } = nodes[i];
                 let (segment, eta) = c.locate(piece, s);
                 let [_, tangent] = c.spot(segment, eta).rotation;
                 let symmetric = held[d] == Support::Fixed
                     && held[1 - d] == Support::Free
-                    && dot(tangent, axis).abs() >= 1.0 - ALONG;
+                    && dot(tangent, axis).abs() >= 1.0 - ALONG
+                    && !junction;
                 let from = if symmetric { Vec::new() } else { line_through(&nodes, &slaves, s) };
                 found.push(Slaved { node, component: d, from });
             }
@@ -71,35 +78,43 @@ fn line_through(nodes: &[GridNode], slaves: &[usize], s: f64) -> Vec<(usize, f64
     vec![(a.node, 1.0 - share), (b.node, share)]
 }
 
-/// A node of the grid with the supports that both sides have there; free where the edges next to it match.
-fn grid_node(c: &LineMidplane, p: usize, node: usize, s: f64, supports: &[Support]) -> GridNode {
-    let piece = &c.pieces[p];
-    let (segment, eta) = c.locate(piece, s);
+/// A node of the grid with what is around it; nothing where the edges next to it match.
+fn grid_node(c: &LineMidplane, p: usize, node: usize, s: f64, around: Surroundings) -> GridNode {
+    if matches(c, p, s) {
+        return GridNode { node, s, held: [Support::Free; 2], junction: false };
+    }
+    let (segment, eta) = c.locate(&c.pieces[p], s);
     let spot = c.spot(segment, eta);
     let g = &c.segments[segment];
     let sides = [(&c.a, g.edge_a, spot.xi_a), (&c.b, g.edge_b, spot.xi_b)];
     let held = [0, 1].map(|d| {
-        let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, supports));
-        if a == Support::Fixed && b == Support::Fixed {
-            Support::Fixed
-        } else if a == Support::Free || b == Support::Free {
-            Support::Free
-        } else {
-            Support::Moved
+        let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, around.supports));
+        match (a, b) {
+            (Support::Free, _) | (_, Support::Free) => Support::Free,
+            (Support::Fixed, Support::Fixed) => Support::Fixed,
+            _ => Support::Moved,
         }
     });
-    let held = if matches(c, p, s) { [Support::Free; 2] } else { held };
-    GridNode { node, s, held }
+    let meets = |place: usize, chain: &Chain| around.junctions.get(chain.nodes[place]) == Some(&true);
+    let junction = sides.iter().any(|(chain, edge, xi)| {
+        let [start, end] = chain.ends[*edge];
+        on_node(*xi, -1.0) && meets(start, chain) || on_node(*xi, 1.0) && meets(end, chain)
+    });
+    GridNode { node, s, held, junction }
+}
+
+fn on_node(xi: f64, end: f64) -> bool {
+    (xi - end).abs() <= ON_NODE
 }
 
 /// Support of a side at a place: that of the node there, or what all nodes of the edge have in common.
 fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) -> Support {
-    let of = |place: usize| supports.get(2 * chain.nodes[place] + d).copied().unwrap_or(Support::Free);
+    let of = |place: usize| supports.get(2 * chain.nodes[place] + d).copied().unwrap_or_default();
     let [start, end] = chain.ends[edge].map(of);
-    if (xi + 1.0).abs() <= ON_NODE {
+    if on_node(xi, -1.0) {
         return start;
     }
-    if (xi - 1.0).abs() <= ON_NODE {
+    if on_node(xi, 1.0) {
         return end;
     }
     match (start, end, chain.mids[edge].map_or(start, of)) {
@@ -111,10 +126,8 @@ fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) 
 
 /// True if the edges of both sides next to a place are the same.
 fn matches(c: &LineMidplane, p: usize, s: f64) -> bool {
-    let piece = &c.pieces[p];
     let whole = |xi: [f64; 2]| xi == [-1.0, 1.0];
-    let near = c.segments[piece.segments.clone()].iter().filter(|g| g.start == s || g.end == s);
-    let mut count = 0;
-    let all = near.inspect(|_| count += 1).all(|g| whole(g.xi_a) && whole(g.xi_b));
-    all && count > 0
+    let segments = &c.segments[c.pieces[p].segments.clone()];
+    let mut near = segments.iter().filter(|g| g.start == s || g.end == s).peekable();
+    near.peek().is_some() && near.all(|g| whole(g.xi_a) && whole(g.xi_b))
 }

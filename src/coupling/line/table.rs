@@ -1,7 +1,7 @@
 //! The table of places of two lines.
 
 use super::super::place::{CellView, Facets, Midplane, Nodes, OnFacet, Place, SegmentView, Table};
-use super::super::{JumpScheme, Points, Scheme, Support};
+use super::super::{JumpScheme, Points, Scheme, Surroundings};
 use super::angle::Angles;
 use super::cells::MidplaneGrid;
 use super::slaved::slaved;
@@ -10,11 +10,10 @@ use crate::error::Result;
 use crate::shape::vector::{in_space, minus, plus};
 use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Shape};
 
-/// The places of two sides, each a list of curves, for a scheme. `name` is the interface's, for messages; `supports` are those of
-/// the model's dofs over all steps.
+/// The places of two sides, each a list of curves, for a scheme. `name` is the interface's, for messages.
 ///
 /// Refuses sides that branch, that do not face each other, that are too far apart or have no common length.
-pub fn table(name: &str, a: &[Side], b: &[Side], scheme: Scheme, supports: &[Support]) -> Result<Table> {
+pub fn table(name: &str, a: &[Side], b: &[Side], scheme: Scheme, around: Surroundings) -> Result<Table> {
     let c = join(name, a, b, scheme.gap)?;
     let grid = match scheme.kind {
         JumpScheme::Pointwise => None,
@@ -28,7 +27,7 @@ pub fn table(name: &str, a: &[Side], b: &[Side], scheme: Scheme, supports: &[Sup
         Some((grid, quadratic)) => (projection(&c, grid), on_cells(&c, grid, scheme.points, *quadratic)),
     };
     let ends = grid.as_ref().map_or_else(Vec::new, |(grid, _)| grid.ends());
-    let nodes = grid.map_or_else(Nodes::default, |(grid, _)| grid.nodes(slaved(&c, &grid, supports)));
+    let nodes = grid.map_or_else(Nodes::default, |(grid, _)| grid.nodes(slaved(&c, &grid, around)));
     let sides = [facets(&c.a), facets(&c.b)];
     Ok(Table { sides, projection, points, nodes, midplane: in_numbers(&c, &ends) })
 }
