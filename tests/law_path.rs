@@ -4,7 +4,7 @@
 mod law_help;
 
 use law_help::{EXAMPLE_2, Reference, close};
-use midplane::law::path::{COLUMNS, LawPath, PathError, PathRow, drive, write_csv};
+use midplane::law::path::{LawPath, PathError, PathRow, columns, drive, write_csv};
 use midplane::law::{Coulomb, Elastic, Integration, Law, Local, State};
 
 const STEPPING: Integration = Integration::Tolerance(1e-6);
@@ -51,7 +51,7 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     let straight = path(&[("d", 0.0, 1.0, "s", 0.0, 4.0, 1)]);
     let csv = |law: &Law, path: &LawPath| {
         let mut out = Vec::new();
-        write_csv(&drive(law, path, &State::default(), STEPPING).unwrap(), &mut out).unwrap();
+        write_csv(law, &drive(law, path, &State::default(), STEPPING).unwrap(), &mut out).unwrap();
         String::from_utf8(out).unwrap()
     };
     let text = csv(&springs, &straight);
@@ -64,7 +64,7 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     assert_eq!(lines[2], "1,1e0,2e-3,1e3,4e0,0e0,0e0,0e0,,,,0");
     let text = csv(&BLOCK, &path(&[("s", 0.0, -2.0, "d", 0.0, 3e-4, 1)]));
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
-    assert_eq!(last.len(), COLUMNS.split(',').count());
+    assert_eq!(last.len(), columns().split(',').count());
     assert_eq!(&last[8..], ["0e0", "0e0", "6e-1", "2"]);
 }
 

@@ -66,9 +66,9 @@ fn act(arguments: Arguments) -> Result<()> {
                 (Some(n), _) => Some(Integration::BackwardEuler(n.get())),
                 (None, tolerance) => tolerance.map(Integration::Tolerance),
             };
-            let (rows, ended) = run::point::drive(&scene, &settings, &interface, &path, integration)?;
+            let (law, rows, ended) = run::point::drive(&scene, &settings, &interface, &path, integration)?;
             let mut csv = Vec::new();
-            path::write_csv(&rows, &mut csv).map_err(Error::io("write", "standard output"))?;
+            path::write_csv(&law, &rows, &mut csv).map_err(Error::io("write", "standard output"))?;
             print(&String::from_utf8_lossy(&csv))?;
             ended.map_or(Ok(()), Err)
         }

@@ -1,43 +1,38 @@
 //! Consistent nodal forces: f_i = h ∫ N_i t dL on edges, f_i = h ∫ N_i b dA in cells.
 
 use super::element::gradients;
-use crate::shape::{GAUSS_2, GAUSS_3, LineRule, MAX_NODES, Shape, lagrange2, lagrange3};
+use crate::shape::{GAUSS_2, GAUSS_3, LINE_NODES, LineRule, LineValues, MAX_NODES, Shape};
 
 /// Points of an edge: shape values, outward normal times dL/dξ · weight. The body lies on the left of the edge.
-fn edge_points(x: &[[f64; 2]; 3], quadratic: bool) -> impl Iterator<Item = ([f64; 3], [f64; 2])> {
-    let rule = if quadratic { GAUSS_3 } else { GAUSS_2 };
-    edge_points_of(rule, x, quadratic).map(|(_, n, normal)| (n, normal))
+fn edge_points(x: &[[f64; 2]; LINE_NODES], shape: Shape) -> impl Iterator<Item = (LineValues, [f64; 2])> {
+    let rule = if shape.is_quadratic() { GAUSS_3 } else { GAUSS_2 };
+    edge_points_of(rule, x, shape).map(|(_, n, normal)| (n, normal))
 }
 
 /// The same with the place ξ of every point, for any rule.
 fn edge_points_of(
     rule: LineRule,
-    x: &[[f64; 2]; 3],
-    quadratic: bool,
-) -> impl Iterator<Item = (f64, [f64; 3], [f64; 2])> {
+    x: &[[f64; 2]; LINE_NODES],
+    shape: Shape,
+) -> impl Iterator<Item = (f64, LineValues, [f64; 2])> {
     rule.iter().map(move |&[xi, weight]| {
-        let (n, dn) = if quadratic {
-            lagrange3(xi)
-        } else {
-            let (n, dn) = lagrange2(xi);
-            ([n[0], n[1], 0.0], [dn[0], dn[1], 0.0])
-        };
-        let slope = [0, 1].map(|d| (0..3).map(|i| dn[i] * x[i][d]).sum::<f64>());
+        let (n, dn) = shape.line_functions(xi);
+        let slope = [0, 1].map(|d| (0..LINE_NODES).map(|i| dn[i] * x[i][d]).sum::<f64>());
         (xi, n, [weight * slope[1], -weight * slope[0]])
     })
 }
 
 /// Nodal forces (x, y) of an edge under a traction (x, y) and a pressure, both constant [stress]; times thickness.
-/// `x` holds start, end and mid-node.
+/// `x` holds its ends, then its inner nodes.
 pub fn edge_force(
-    x: &[[f64; 2]; 3],
-    quadratic: bool,
+    x: &[[f64; 2]; LINE_NODES],
+    shape: Shape,
     traction: [f64; 2],
     pressure: f64,
     thickness: f64,
-) -> [[f64; 2]; 3] {
-    let mut force = [[0.0; 2]; 3];
-    for (n, normal) in edge_points(x, quadratic) {
+) -> [[f64; 2]; LINE_NODES] {
+    let mut force = [[0.0; 2]; LINE_NODES];
+    for (n, normal) in edge_points(x, shape) {
         let length = normal[0].hypot(normal[1]);
         for (force, n) in force.iter_mut().zip(n) {
             for d in 0..2 {
@@ -50,14 +45,14 @@ pub fn edge_force(
 
 /// The same for a traction and a pressure that vary: `load` gets ξ and the place relative to the origin of `x`.
 pub fn edge_field_force<E>(
-    x: &[[f64; 2]; 3],
-    quadratic: bool,
+    x: &[[f64; 2]; LINE_NODES],
+    shape: Shape,
     thickness: f64,
     mut load: impl FnMut(f64, [f64; 2]) -> Result<([f64; 2], f64), E>,
-) -> Result<[[f64; 2]; 3], E> {
-    let mut force = [[0.0; 2]; 3];
-    for (xi, n, normal) in edge_points_of(GAUSS_3, x, quadratic) {
-        let place = [0, 1].map(|d| (0..3).map(|i| n[i] * x[i][d]).sum());
+) -> Result<[[f64; 2]; LINE_NODES], E> {
+    let mut force = [[0.0; 2]; LINE_NODES];
+    for (xi, n, normal) in edge_points_of(GAUSS_3, x, shape) {
+        let place = [0, 1].map(|d| (0..LINE_NODES).map(|i| n[i] * x[i][d]).sum());
         let (traction, pressure) = load(xi, place)?;
         let length = normal[0].hypot(normal[1]);
         for (force, n) in force.iter_mut().zip(n) {
@@ -69,10 +64,10 @@ pub fn edge_field_force<E>(
     Ok(force)
 }
 
-/// ∫ N_i dL of an edge: start, end and mid-node [length].
-pub fn edge_weights(x: &[[f64; 2]; 3], quadratic: bool) -> [f64; 3] {
-    let mut weights = [0.0; 3];
-    for (n, normal) in edge_points(x, quadratic) {
+/// ∫ N_i dL of an edge: ends, then inner nodes [length].
+pub fn edge_weights(x: &[[f64; 2]; LINE_NODES], shape: Shape) -> LineValues {
+    let mut weights = [0.0; LINE_NODES];
+    for (n, normal) in edge_points(x, shape) {
         for (weight, n) in weights.iter_mut().zip(n) {
             *weight += n * normal[0].hypot(normal[1]);
         }
@@ -122,13 +117,13 @@ mod tests {
     fn a_pressure_pushes_against_the_subdomain_and_sums_to_pressure_times_length() {
         // the body lies above an edge that runs along +x: a pressure p pushes up
         let x = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]];
-        for quadratic in [false, true] {
-            let force = edge_force(&x, quadratic, [0.0, 0.0], 3.0, 0.5);
+        for shape in [Shape::Line2, Shape::Line3] {
+            let force = edge_force(&x, shape, [0.0, 0.0], 3.0, 0.5);
             let total = [0, 1].map(|d| force.iter().map(|f| f[d]).sum::<f64>());
             assert!(total[0].abs() < 1e-15 && (total[1] - 3.0).abs() < 1e-15, "{total:?}");
         }
         // quadratic: 1/6, 1/6, 4/6 of the force
-        let force = edge_force(&x, true, [0.0, 6.0], 0.0, 1.0);
+        let force = edge_force(&x, Shape::Line3, [0.0, 6.0], 0.0, 1.0);
         for (force, exact) in force.iter().zip([2.0, 2.0, 8.0]) {
             assert!((force[1] - exact).abs() < 1e-14);
         }
@@ -161,8 +156,8 @@ mod tests {
     fn a_linear_traction_gives_its_exact_consistent_force() {
         // t = ξ on an edge of length 2: ∫ N_i ξ dξ = ∓1/3, and on a quadratic edge the same with 0 in the middle
         let x = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]];
-        for quadratic in [false, true] {
-            let force = edge_field_force::<()>(&x, quadratic, 1.0, |xi, _| Ok(([xi, 0.0], 0.0))).unwrap();
+        for shape in [Shape::Line2, Shape::Line3] {
+            let force = edge_field_force::<()>(&x, shape, 1.0, |xi, _| Ok(([xi, 0.0], 0.0))).unwrap();
             for (force, exact) in force.iter().zip([-1.0 / 3.0, 1.0 / 3.0, 0.0]) {
                 assert!((force[0] - exact).abs() < 1e-15, "{force:?}");
             }

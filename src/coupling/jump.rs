@@ -19,6 +19,7 @@
 //! whole model gives no jump. On coincident straight faces there is nothing to add.
 
 use super::place::{Facets, OnFacet, Place, Table};
+use crate::shape::LineValues;
 use crate::shape::vector::norm;
 
 /// Faces closer than this coincide. Of the common length.
@@ -76,8 +77,8 @@ struct OnSide<'a> {
     /// Column of the side's first node.
     first: usize,
     /// Shape functions and their derivatives, node by node.
-    n: [f64; 3],
-    dn: [f64; 3],
+    n: LineValues,
+    dn: LineValues,
 }
 
 impl OnSide<'_> {

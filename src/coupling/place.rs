@@ -7,7 +7,7 @@
 //! `line` fills it from two chains of edges; `pointwise`, `projected` and `jump` know nothing else of geometry.
 
 use crate::shape::vector::{minus, norm};
-use crate::shape::{Ends, FacetPoint, Shape, lagrange2, lagrange3};
+use crate::shape::{Ends, FacetPoint, LineValues, Shape};
 
 /// One for side A and one for side B.
 pub type Sides<T> = [T; 2];
@@ -164,20 +164,23 @@ impl Facets {
     }
 
     /// Functions of a facet and their derivatives at ξ, node by node.
-    pub(super) fn functions(&self, on: &OnFacet) -> ([f64; 3], [f64; 3]) {
-        match self.shapes[on.facet] {
-            Shape::Line3 => lagrange3(on.xi[0]),
-            _ => {
-                let (n, dn) = lagrange2(on.xi[0]);
-                ([n[0], n[1], 0.0], [dn[0], dn[1], 0.0])
-            }
-        }
+    pub(super) fn functions(&self, on: &OnFacet) -> (LineValues, LineValues) {
+        self.shapes[on.facet].line_functions(on.xi[0])
+    }
+
+    /// The point of a facet for the values of its functions.
+    pub(super) fn point(&self, facet: usize, n: LineValues) -> [f64; 3] {
+        self.combine(facet, n)
     }
 
     /// dx/dξ of a facet for the derivatives of its functions.
-    pub(super) fn derivative(&self, facet: usize, dn: [f64; 3]) -> [f64; 3] {
+    pub(super) fn derivative(&self, facet: usize, dn: LineValues) -> [f64; 3] {
+        self.combine(facet, dn)
+    }
+
+    fn combine(&self, facet: usize, factors: LineValues) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        for (&node, factor) in self.corners[facet].iter().zip(dn) {
+        for (&node, factor) in self.corners[facet].iter().zip(factors) {
             (0..3).for_each(|d| sum[d] += factor * self.points[node][d]);
         }
         sum

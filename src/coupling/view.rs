@@ -1,6 +1,7 @@
 //! Sides of a coupling, as checks, reports and pictures see them.
 
 use super::Coupling;
+use crate::shape::vector::plus;
 
 impl Coupling {
     /// Number of facets of a side, 0 for A and 1 for B.
@@ -14,12 +15,23 @@ impl Coupling {
         [0, 1].map(|end| facets.nodes[facets.corners[facet][end]])
     }
 
-    /// Places of a facet's start, mid-node (if it has one) and end.
+    /// Places of a facet's nodes from its start to its end.
     pub fn line(&self, side: usize, facet: usize) -> Vec<[f64; 3]> {
-        let (facets, origin) = (&self.sides[side], self.midplane.origin);
-        let corners = &facets.corners[facet];
-        let order = if corners.len() > 2 { &[0, 2, 1][..] } else { &[0, 1] };
-        order.iter().map(|&i| [0, 1, 2].map(|d| origin[d] + facets.points[corners[i]][d])).collect()
+        let facets = &self.sides[side];
+        let node = |&i: &usize| plus(self.midplane.origin, facets.points[facets.corners[facet][i]]);
+        facets.shapes[facet].along_line().iter().map(node).collect()
+    }
+
+    /// The place of a facet at ξ.
+    pub fn point(&self, side: usize, facet: usize, xi: f64) -> [f64; 3] {
+        let facets = &self.sides[side];
+        plus(self.midplane.origin, facets.point(facet, facets.shapes[facet].line_functions(xi).0))
+    }
+
+    /// dx/dξ of a facet at ξ.
+    pub fn derivative(&self, side: usize, facet: usize, xi: f64) -> [f64; 3] {
+        let facets = &self.sides[side];
+        facets.derivative(facet, facets.shapes[facet].line_functions(xi).1)
     }
 
     /// From a facet's start to its end [length].

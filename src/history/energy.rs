@@ -4,7 +4,7 @@ use super::converged::{Converged, InterfaceResponse};
 use super::loading::{LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::LawPoint;
-use crate::law::{self, Law, Local};
+use crate::law::{self, Local};
 use crate::output::Snapshot;
 use crate::problem::Problem;
 use crate::solver::NodalSolution;
@@ -90,10 +90,4 @@ pub(super) fn across(model: &Model, snapshot: &Snapshot) -> f64 {
         model.thickness * point.weight * state.traction.dot(r)
     };
     points.map(at).sum()
-}
-
-/// ½ tᵀ D⁻¹ t of a law whose stiffnesses are above zero [force / length].
-pub(super) fn elastic_energy(law: &Law, state: &law::State) -> f64 {
-    let t = state.traction;
-    0.5 * t.component_mul(&t).component_div(&Local::from(law.elastic_stiffness())).sum()
 }

@@ -12,7 +12,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::converged::{Converged, InterfaceResponse};
-use super::energy::{across, elastic_energy, work_to};
+use super::energy::{across, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
@@ -183,7 +183,7 @@ impl ModelState {
             } else {
                 let states = &self.snapshot.states[k];
                 for (p, (state, start)) in states.iter().zip(starts).enumerate() {
-                    self.stored += area(p) * (elastic_energy(law, state) - elastic_energy(law, start));
+                    self.stored += area(p) * (law.stored(state) - law.stored(start));
                 }
                 self.snapshot.tractions.push(states.iter().map(|state| state.traction).collect());
             }
@@ -209,6 +209,7 @@ impl ModelState {
             u: &self.snapshot.u,
             jumps: &self.snapshot.jumps,
             tractions: &self.snapshot.tractions,
+            interfaces: &problem.interfaces,
             states: &self.snapshot.states,
             stored: self.stored,
             dissipated: self.dissipated,

@@ -48,9 +48,13 @@ pub enum Law {
     Cracking(Cracking),
 }
 
+/// Variables of every law that has any.
+const VARIABLES: [&[LawVariable]; 1] = [&cracking::VARIABLES];
+const _: () = assert!(variable::fit(&VARIABLES)); // a law with more of them raises OWN
+
 /// The variables of all laws: results have an array for each.
 pub fn variables() -> impl Iterator<Item = &'static LawVariable> {
-    cracking::VARIABLES.iter()
+    VARIABLES.into_iter().flatten()
 }
 
 impl Law {
@@ -87,6 +91,17 @@ impl Law {
             Law::Elastic(_) | Law::Coulomb(_) => &[],
             Law::Cracking(_) => &cracking::VARIABLES,
         }
+    }
+
+    /// Value of a variable at a point of the law; zero for one of another law.
+    pub fn value(&self, variable: &LawVariable, state: &State) -> f64 {
+        if self.variables().contains(variable) { state.own[variable.place] } else { 0.0 }
+    }
+
+    /// Stored energy of a point whose stiffnesses are above zero, ½ tᵀ D⁻¹ t [stress × length].
+    pub fn stored(&self, state: &State) -> f64 {
+        let t = state.traction;
+        0.5 * t.component_mul(&t).component_div(&Local::from(self.elastic_stiffness())).sum()
     }
 
     /// True for a softening law whose sides move apart as they slide under compression.

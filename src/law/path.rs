@@ -10,14 +10,14 @@
 //! keys of the file are ignored. Where stress is prescribed the jump is an unknown, so the way between two rows is not
 //! straight: it is divided by the same error control as the law's own sub-steps.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use serde::Deserialize;
 
 use super::balance::{Prescribed, balance};
-use super::cracking::WORK;
 use super::local::Local;
-use super::{Integration, Law, OWN, State, Strength};
+use super::{Integration, Law, OWN, State, Strength, variables};
 
 /// A path as read from its file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -63,8 +63,8 @@ pub enum Controlled {
 }
 
 /// State at the start of a program.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(default)]
 pub struct Initial {
     /// Normal jump [length].
     pub u_n: f64,
@@ -74,9 +74,31 @@ pub struct Initial {
     pub up_n: f64,
     /// Irreversible tangential jump [length].
     pub up_t: f64,
-    /// Work spent on fracture [stress × length].
-    #[serde(rename = "W")]
-    pub work: f64,
+    /// Variables of the law by name; `W` is `fracture_work`.
+    #[serde(flatten)]
+    pub own: BTreeMap<String, f64>,
+}
+
+impl Initial {
+    /// The variables in their places; a name that the law does not have is refused.
+    fn own(&self, law: &Law) -> Result<[f64; OWN], PathError> {
+        let mut own = [0.0; OWN];
+        for (name, value) in &self.own {
+            let full = if name == "W" { "fracture_work" } else { name };
+            let Some(variable) = law.variables().iter().find(|variable| variable.name == full) else {
+                let known = ["u_n", "u_t", "up_n", "up_t"].into_iter();
+                let names: Vec<&str> =
+                    known.chain(law.variables().iter().map(|variable| variable.name)).collect();
+                return Err(PathError::Program {
+                    key: format!("initial.{name}"),
+                    what: format!("the law has no \"{name}\""),
+                    help: format!("there is {}", names.join(", ")),
+                });
+            };
+            own[variable.place] = *value;
+        }
+        Ok(own)
+    }
 }
 
 /// A stored point of the path.
@@ -115,9 +137,14 @@ pub enum PathError {
     },
 }
 
-/// Columns of the CSV.
-pub const COLUMNS: &str = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,jump_n_plastic,jump_t_plastic,\
-                           tensile_strength,cohesion,tan_friction,status";
+/// Columns of the CSV, those of the laws' own variables among them.
+pub fn columns() -> String {
+    let own: String = variables().map(|variable| format!("{},", variable.name)).collect();
+    format!(
+        "s,jump_n,jump_t,traction_n,traction_t,{own}jump_n_plastic,jump_t_plastic,\
+         tensile_strength,cohesion,tan_friction,status"
+    )
+}
 
 /// A prescribed value may miss the value reached before by this, relative to the segment's values.
 const JOINT: f64 = 1e-9;
@@ -135,11 +162,10 @@ pub fn drive(
 ) -> Result<Vec<PathRow>, PathError> {
     let mut state = match &path.initial {
         None => *start,
-        Some(Initial { u_n, u_t, up_n, up_t, work }) => {
-            let mut own = [0.0; OWN];
-            own[WORK] = *work;
-            let (jump, plastic) = (Local::new(*u_n, *u_t, 0.0), Local::new(*up_n, *up_t, 0.0));
-            law.state_at(jump, plastic, own).map_err(|refused| PathError::Program {
+        Some(initial) => {
+            let jump = Local::new(initial.u_n, initial.u_t, 0.0);
+            let plastic = Local::new(initial.up_n, initial.up_t, 0.0);
+            law.state_at(jump, plastic, initial.own(law)?).map_err(|refused| PathError::Program {
                 key: "initial".into(),
                 what: refused.what,
                 help: refused.help,
@@ -164,11 +190,14 @@ pub fn drive(
 }
 
 /// Writes the rows as CSV, the header first; the elastic law leaves the strength columns empty.
-pub fn write_csv(rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "{COLUMNS}")?;
+pub fn write_csv(law: &Law, rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
+    writeln!(out, "{}", columns())?;
     for PathRow { s, state, strength } in rows {
         write!(out, "{s},{:e},{:e}", state.jump.x, state.jump.y)?;
-        write!(out, ",{:e},{:e},{:e}", state.traction.x, state.traction.y, state.own[WORK])?;
+        write!(out, ",{:e},{:e}", state.traction.x, state.traction.y)?;
+        for variable in variables() {
+            write!(out, ",{:e}", law.value(variable, state))?;
+        }
         write!(out, ",{:e},{:e}", state.jump_plastic.x, state.jump_plastic.y)?;
         match strength {
             Some(Strength { tensile_strength, cohesion, tan_friction }) => {

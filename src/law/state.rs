@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::local::{Local, LocalMatrix, S};
-use super::variable::{LawVariable, OWN};
+use super::variable::OWN;
 
 /// Integration of a law that depends on the way from the old jump to the new one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,11 +69,6 @@ pub enum Unresolved {
 }
 
 impl State {
-    /// Value of a variable of the law.
-    pub fn value(&self, variable: &LawVariable) -> f64 {
-        self.own[variable.place]
-    }
-
     /// True if the way to a jump lies in the plane of n and t.
     #[inline]
     pub(super) fn is_plane(&self, jump: &Local) -> bool {

@@ -12,6 +12,22 @@ pub struct LawVariable {
     pub unit: &'static str,
     /// A noun phrase that says what it is.
     pub meaning: &'static str,
-    /// Its place in `State::own`.
+    /// Its place in `State::own`, which other laws have for theirs.
     pub place: usize,
+}
+
+/// True if the places of all variables exist.
+pub(super) const fn fit(laws: &[&[LawVariable]]) -> bool {
+    let mut law = 0;
+    while law < laws.len() {
+        let mut k = 0;
+        while k < laws[law].len() {
+            if laws[law][k].place >= OWN {
+                return false;
+            }
+            k += 1;
+        }
+        law += 1;
+    }
+    true
 }

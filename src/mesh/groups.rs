@@ -109,16 +109,19 @@ fn curve(
     let mut edges = Vec::with_capacity(members.len());
     let mut keys = Vec::with_capacity(members.len());
     for &member in members {
-        let nodes = content.edges[member];
+        let shape = content.edge_shapes[member];
+        let nodes = &content.edges[member][..shape.nodes()];
         let tag = content.tags[1][member];
-        let number = |node: u32| if node == u32::MAX { UNUSED } else { numbers[node as usize] };
-        let [start, end, mid] = nodes.map(number);
+        let number = |i: usize| numbers[nodes[i] as usize];
+        let (start, end) = (number(0), number(1));
         let found = (start != UNUSED && end != UNUSED)
             .then(|| table.find(cells, start as usize, end as usize))
             .flatten()
             .ok_or_else(|| loose(group, &format!("element {tag}")))?;
-        let has_mid = nodes[2] != u32::MAX;
-        if has_mid != cells.shapes[found.cell].is_quadratic() || has_mid && found.nodes[2] != mid as usize {
+        // inner nodes of the element, in the direction of the facet
+        let order = if found.nodes()[0] == start as usize { None } else { Some(shape.turned_line()) };
+        let inner = (2..shape.nodes()).map(|i| number(order.map_or(i, |order| order[i])) as usize);
+        if shape != found.shape || !inner.eq(found.nodes()[2..].iter().copied()) {
             return Err(MeshFault {
                 what: format!(
                     "element {tag} of curve \"{}\" and element {} beside it do not have the same mid-node",

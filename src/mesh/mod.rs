@@ -109,15 +109,22 @@ pub struct Facet {
 impl Facet {
     /// An edge from its start, its end and, of a quadratic cell, its mid-node.
     pub fn edge(nodes: &[usize], cell: usize, boundary: bool) -> Facet {
-        let shape = if nodes.len() > 2 { Shape::Line3 } else { Shape::Line2 };
         let mut all = [0; MOST_NODES];
         all.iter_mut().zip(nodes).for_each(|(place, node)| *place = *node);
-        Facet { shape, nodes: all, cell, boundary }
+        Facet { shape: Shape::line(nodes.len()), nodes: all, cell, boundary }
     }
 
     /// Its nodes, corners first.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.shape.nodes()]
+    }
+
+    /// An edge walked the other way.
+    pub fn turned(&self) -> Facet {
+        let mut facet = *self;
+        let order = self.shape.turned_line();
+        facet.nodes.iter_mut().zip(order).for_each(|(node, &from)| *node = self.nodes[from]);
+        facet
     }
 
     /// The same facet with other node numbers.

@@ -5,7 +5,7 @@ use super::vtu::{Array, Data, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
-use crate::law::{self, Local, State};
+use crate::law::{self, Law, Local, State};
 
 /// A body: displacement, stress at points and cells, principal stress.
 pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
@@ -44,6 +44,7 @@ pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
 /// The law points of an interface in order along C, joined by lines.
 pub(super) fn interface(
     interface: &InterfaceOperator,
+    law: &Law,
     index: usize,
     snapshot: &Snapshot,
     time: f64,
@@ -72,8 +73,9 @@ pub(super) fn interface(
         let values = vectors.iter().flat_map(|v| v.iter().take(components).copied());
         Array::float(name, components, values)
     };
-    let own = law::variables()
-        .map(|variable| Array::float(variable.name, 1, states.iter().map(|state| state.value(variable))));
+    let own = law::variables().map(|variable| {
+        Array::float(variable.name, 1, states.iter().map(|state| law.value(variable, state)))
+    });
     let mut point_data = vec![
         local("jump", &snapshot.jumps[index]),
         local("jump_plastic", &plastic),

@@ -27,7 +27,7 @@ enum GeometryKind {
     LawPoint = 6,
 }
 
-/// VTK's vertex, line and polyline.
+/// VTK's vertex, line and polyline, by the number of points.
 const TYPES: [u8; 3] = [1, 3, 4];
 
 /// Writes `<subdomain>.vtu` with the quality of every cell and `<interface>.vtu` with chains A and B, segments, their
@@ -74,7 +74,7 @@ impl Drawing {
             self.normals.extend(normal);
         }
         self.grid.offsets.push(self.grid.connectivity.len() as i64);
-        self.grid.types.push(TYPES[points.len() - 1]);
+        self.grid.types.push(TYPES[points.len().min(TYPES.len()) - 1]);
         for (list, value) in self.cells.iter_mut().zip([kind as i64, number as i64, parents[0], parents[1]]) {
             list.push(value);
         }
@@ -97,8 +97,8 @@ fn geometry(interface: &InterfaceOperator) -> VtuGrid {
         for (end, place) in share.places.into_iter().enumerate() {
             for (side, kind) in [GeometryKind::ProjectionA, GeometryKind::ProjectionB].into_iter().enumerate()
             {
-                let line = coupling.line(side, share.facets[side]);
-                let foot = projection(&line, share.projections[side][end]);
+                let xi = 2.0 * share.projections[side][end] - 1.0;
+                let foot = coupling.point(side, share.facets[side], xi);
                 drawing.add(kind, number, parents, &[place, foot], [0.0; 3]);
             }
         }
@@ -118,16 +118,4 @@ fn geometry(interface: &InterfaceOperator) -> VtuGrid {
         Array::int("edge_b", edge_b),
     ];
     grid
-}
-
-/// The place on an edge at a fraction of its ξ.
-fn projection(line: &[[f64; 3]], fraction: f64) -> [f64; 3] {
-    let weights = match line.len() {
-        2 => vec![1.0 - fraction, fraction],
-        _ => {
-            let xi = 2.0 * fraction - 1.0; // nodes at −1, 0, 1
-            vec![0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0)]
-        }
-    };
-    [0, 1, 2].map(|d| line.iter().zip(&weights).map(|(p, w)| w * p[d]).sum())
 }

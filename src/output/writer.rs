@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::{Snapshot, earlier, fields, files, pvd};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
+use crate::problem::Problem;
 
 /// Writes one run's results as they come.
 #[derive(Debug)]
@@ -62,7 +63,8 @@ impl Writer {
     }
 
     /// Writes the fields of one state and lists them in the collection.
-    pub fn fields(&mut self, model: &Model, snapshot: &Snapshot, number: usize, time: f64) -> Result<()> {
+    pub fn fields(&mut self, problem: &Problem, snapshot: &Snapshot, number: usize, time: f64) -> Result<()> {
+        let Problem { model, interfaces, .. } = problem;
         let names = model
             .subdomains
             .iter()
@@ -74,7 +76,8 @@ impl Writer {
             let grid = if i < subdomains {
                 fields::subdomain(model, i, snapshot, time)
             } else {
-                fields::interface(&model.interfaces[i - subdomains], i - subdomains, snapshot, time)
+                let k = i - subdomains;
+                fields::interface(&model.interfaces[k], &interfaces[k].law, k, snapshot, time)
             };
             files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
         })?;

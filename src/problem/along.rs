@@ -2,7 +2,7 @@
 
 use super::groups::edge_coordinates;
 use crate::mesh::Facet;
-use crate::shape::{GAUSS_3, lagrange3};
+use crate::shape::{GAUSS_3, LINE_NODES, Shape};
 
 /// Ends of a curve whose x differ by less have the same x. Of its extent.
 const SAME: f64 = 1e-9;
@@ -40,7 +40,7 @@ pub(super) fn fractions(points: &[[f64; 3]], edges: &[Facet]) -> Result<Vec<[f64
     let mut walked = 0;
     while let Some(&(_, e)) = at(node).iter().find(|(_, e)| *e != before) {
         let edge = &edges[e];
-        let (start, end) = (s, s + length(&edge_coordinates(points, edge), edge.shape.is_quadratic()));
+        let (start, end) = (s, s + length(&edge_coordinates(points, edge), edge.shape));
         let along = edge.nodes()[0] == node;
         fractions[e] = if along { [start, end] } else { [end, start] };
         (node, before, s) = (edge.nodes()[usize::from(along)], e, end);
@@ -53,9 +53,9 @@ pub(super) fn fractions(points: &[[f64; 3]], edges: &[Facet]) -> Result<Vec<[f64
 }
 
 /// s at the place ξ of an edge whose ends have the values `ends`.
-pub(super) fn at(ends: [f64; 2], x: &[[f64; 2]; 3], quadratic: bool, xi: f64) -> f64 {
-    let share = if quadratic {
-        let (before, after) = (arc(x, -1.0, xi), arc(x, xi, 1.0));
+pub(super) fn at(ends: [f64; 2], x: &[[f64; 2]; LINE_NODES], shape: Shape, xi: f64) -> f64 {
+    let share = if shape.is_quadratic() {
+        let (before, after) = (arc(x, shape, -1.0, xi), arc(x, shape, xi, 1.0));
         before / (before + after)
     } else {
         0.5 * (1.0 + xi)
@@ -64,20 +64,20 @@ pub(super) fn at(ends: [f64; 2], x: &[[f64; 2]; 3], quadratic: bool, xi: f64) ->
 }
 
 /// Length of an edge.
-fn length(x: &[[f64; 2]; 3], quadratic: bool) -> f64 {
-    if quadratic {
-        arc(x, -1.0, 0.0) + arc(x, 0.0, 1.0)
+fn length(x: &[[f64; 2]; LINE_NODES], shape: Shape) -> f64 {
+    if shape.is_quadratic() {
+        arc(x, shape, -1.0, 0.0) + arc(x, shape, 0.0, 1.0)
     } else {
         (x[1][0] - x[0][0]).hypot(x[1][1] - x[0][1])
     }
 }
 
-/// ∫ |dx/dξ| dξ of a quadratic edge between two places.
-fn arc(x: &[[f64; 2]; 3], from: f64, to: f64) -> f64 {
+/// ∫ |dx/dξ| dξ of a curved edge between two places.
+fn arc(x: &[[f64; 2]; LINE_NODES], shape: Shape, from: f64, to: f64) -> f64 {
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
     let speed = |xi: f64| {
-        let (_, dn) = lagrange3(xi);
-        let [dx, dy] = [0, 1].map(|d| (0..3).map(|i| dn[i] * x[i][d]).sum::<f64>());
+        let (_, dn) = shape.line_functions(xi);
+        let [dx, dy] = [0, 1].map(|d| (0..LINE_NODES).map(|i| dn[i] * x[i][d]).sum::<f64>());
         dx.hypot(dy)
     };
     GAUSS_3.iter().map(|&[xi, weight]| half * weight * speed(middle + half * xi)).sum()
@@ -107,11 +107,11 @@ mod tests {
         let points = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.5]].map(in_space);
         let x = edge_coordinates(&points, &edge(0, 1, 2));
         assert!(
-            (at([0.0, 1.0], &x, true, 0.0) - 0.5).abs() < 1e-15,
+            (at([0.0, 1.0], &x, Shape::Line3, 0.0) - 0.5).abs() < 1e-15,
             "a symmetric arc is halved by its mid-node"
         );
         // y = (1 − x²)/2: length asinh(1) + √2
-        assert!((length(&x, true) - (1f64.asinh() + 2f64.sqrt())).abs() < 1e-3);
+        assert!((length(&x, Shape::Line3) - (1f64.asinh() + 2f64.sqrt())).abs() < 1e-3);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::assembly::Model;
 use crate::error::{Error, Result, name_help};
 use crate::mesh::{Facet, Group};
 use crate::scene::{Scene, Subdomain, split_group};
+use crate::shape::LINE_NODES;
 
 /// A group of a body, or the whole body; one that is no use, or the name of several, is refused.
 pub(super) fn find<'a>(
@@ -147,8 +148,7 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
         Some(Group::Points(points)) => weights.extend(points.iter().map(|&point| (point, 1.0))),
         Some(Group::Edges(edges)) => {
             for edge in edges {
-                let quadratic = edge.shape.is_quadratic();
-                let of_edge = edge_weights(&edge_coordinates(&mesh.points, edge), quadratic);
+                let of_edge = edge_weights(&edge_coordinates(&mesh.points, edge), edge.shape);
                 weights.extend(edge.nodes().iter().copied().zip(of_edge));
             }
         }
@@ -166,9 +166,9 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
 }
 
 /// Coordinates of start, end and mid-node of an edge, relative to its start; the end again where it has none.
-pub(super) fn edge_coordinates(points: &[[f64; 3]], edge: &Facet) -> [[f64; 2]; 3] {
+pub(super) fn edge_coordinates(points: &[[f64; 3]], edge: &Facet) -> [[f64; 2]; LINE_NODES] {
     let origin = points[edge.nodes()[0]];
     let at = |node: usize| [points[node][0] - origin[0], points[node][1] - origin[1]];
     let nodes = edge.nodes();
-    [nodes[0], nodes[1], nodes[nodes.len() - 1]].map(at)
+    std::array::from_fn(|i| at(nodes[i.min(nodes.len() - 1)]))
 }

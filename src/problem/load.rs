@@ -133,15 +133,14 @@ impl BoundLoad {
                 let subdomain = &model.subdomains[*subdomain];
                 let split = |v: [f64; 2]| if *pressure { ([0.0; 2], v[0]) } else { (v, 0.0) };
                 for (e, edge) in edges.iter().enumerate() {
-                    let quadratic = edge.shape.is_quadratic();
                     let x = groups::edge_coordinates(&subdomain.mesh.points, edge);
                     let nodal = if let Some(constant) = constant {
                         let (traction, pressure) = split(constant);
-                        edge_force(&x, quadratic, traction, pressure, model.thickness)
+                        edge_force(&x, edge.shape, traction, pressure, model.thickness)
                     } else {
                         let origin = in_plane(subdomain.mesh.points[edge.nodes()[0]]);
-                        edge_field_force(&x, quadratic, model.thickness, |xi, place| {
-                            let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, quadratic, xi));
+                        edge_field_force(&x, edge.shape, model.thickness, |xi, place| {
+                            let s = s.as_ref().map_or(0.0, |s| along::at(s[e], &x, edge.shape, xi));
                             Ok::<_, Error>(split(at(plus(origin, place), s)?))
                         })?
                     };

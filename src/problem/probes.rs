@@ -1,6 +1,6 @@
 //! Probes bound to nodes and law points.
 
-use super::groups;
+use super::{BoundInterface, groups};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::{Result, name_help};
 use crate::law::{self, Local};
@@ -47,6 +47,8 @@ pub struct ProbeInput<'a> {
     pub jumps: &'a [Vec<Local>],
     /// Traction at the law points of every interface.
     pub tractions: &'a [Vec<Local>],
+    /// The interfaces, bound.
+    pub interfaces: &'a [BoundInterface],
     /// State of the law points of every interface; empty for an elastic one.
     pub states: &'a [Vec<law::State>],
     /// Elastic energy.
@@ -124,7 +126,8 @@ impl BoundProbe {
                     JointField::Jump(c) => input.jumps[*interface][p][c],
                     JointField::Traction(c) => input.tractions[*interface][p][c],
                     JointField::Variable(variable) => {
-                        input.states[*interface].get(p).map_or(0.0, |state| state.value(variable))
+                        let law = &input.interfaces[*interface].law;
+                        input.states[*interface].get(p).map_or(0.0, |state| law.value(variable, state))
                     }
                 };
                 points.iter().filter(|(_, weight)| *weight != 0.0).map(|&(p, weight)| weight * at(p)).sum()

@@ -226,8 +226,9 @@ fn places(
             let fractions = along::fractions(points, edges).map_err(|why| quantity.error_at_s(&why))?;
             for (edge, ends) in edges.iter().zip(fractions) {
                 let x = groups::edge_coordinates(points, edge);
-                let middle = along::at(ends, &x, true, 0.0);
-                let of_edge = [ends[0], ends[1], middle];
+                let inner =
+                    edge.shape.line_places().iter().skip(2).map(|&xi| along::at(ends, &x, edge.shape, xi));
+                let of_edge = ends.into_iter().chain(inner);
                 for (node, of_node) in edge.nodes().iter().copied().zip(of_edge) {
                     if let Ok(i) = nodes.binary_search(&(subdomain.first_node + node)) {
                         s[i] = of_node;

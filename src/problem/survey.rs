@@ -64,33 +64,8 @@ impl Survey {
 fn largest_turn(coupling: &Coupling, side: usize, joined: &[usize]) -> f64 {
     let follows = |pair: &&[usize]| coupling.nodes(side, pair[0])[1] == coupling.nodes(side, pair[1])[0];
     let turns = joined.windows(2).filter(follows).map(|pair| {
-        let [t, u] =
-            [(pair[0], true), (pair[1], false)].map(|(e, end)| tangent(&coupling.line(side, e), end));
+        let [t, u] = [(pair[0], 1.0), (pair[1], -1.0)].map(|(e, xi)| coupling.derivative(side, e, xi));
         (t[0] * u[1] - t[1] * u[0]).atan2(t[0] * u[0] + t[1] * u[1]).abs()
     });
     turns.fold(0.0, f64::max)
-}
-
-/// Direction of an edge at its start or end, of any length.
-fn tangent(line: &[[f64; 3]], end: bool) -> [f64; 3] {
-    [0, 1, 2].map(|d| match (line, end) {
-        ([p, m, q], false) => 4.0 * (m[d] - p[d]) - (q[d] - p[d]), // x′(−1) of the parabola
-        ([p, m, q], true) => 4.0 * (q[d] - m[d]) - (q[d] - p[d]),
-        _ => line[line.len() - 1][d] - line[0][d],
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_parabola_has_its_slope_at_both_ends() {
-        // y = x² on −1 … 1
-        let line = [[-1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
-        for (end, slope) in [(false, -2.0), (true, 2.0)] {
-            let [x, y, _] = tangent(&line, end);
-            assert_eq!(y / x, slope);
-        }
-    }
 }

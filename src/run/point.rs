@@ -7,8 +7,8 @@ use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
 use crate::law::{Integration, Law, Local, State};
 
-/// Rows of a path, and the error that ended it early, if one did.
-pub type Driven = (Vec<PathRow>, Option<Error>);
+/// The law, rows of a path, and the error that ended it early, if one did.
+pub type Driven = (Law, Vec<PathRow>, Option<Error>);
 
 /// Drives the law of an interface along the program in `path`; without `stepping` the scene's `law_tolerance` rules.
 pub fn drive(
@@ -41,13 +41,13 @@ pub fn drive(
         error_at(path, error.line(), "", what, help)
     })?;
     match path::drive(&interface.law, &program, &start, integration) {
-        Ok(rows) => Ok((rows, None)),
+        Ok(rows) => Ok((interface.law, rows, None)),
         Err(PathError::Program { key, what, help }) => Err(error_at(path, 0, &key, &what, &help)),
         Err(PathError::NoEquilibrium { s, reason, rows }) => {
             let step = path.display().to_string();
             let (increment, kept) = (rows.len(), rows.len().saturating_sub(1));
             let reason = format!("at s = {s:.6}: {reason}");
-            Ok((rows, Some(Error::NoEquilibrium { step, increment, reason, kept })))
+            Ok((interface.law, rows, Some(Error::NoEquilibrium { step, increment, reason, kept })))
         }
     }
 }

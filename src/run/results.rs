@@ -52,7 +52,7 @@ impl<'a> Results<'a> {
         };
         if wanted && self.stored < increment.increment {
             let time = increment.step_number as f64 + increment.load_factor;
-            writer.fields(&problem.model, &state.snapshot, increment.increment, time)?;
+            writer.fields(problem, &state.snapshot, increment.increment, time)?;
             self.stored = increment.increment;
         }
         if !state.force.is_empty() {
@@ -78,11 +78,10 @@ impl<'a> Results<'a> {
     /// The first factor stands: a run that is refused before leaves the last results in place.
     fn open(&mut self, state: &ModelState) -> Result<()> {
         self.folder.keep();
-        let model = &self.problem.model;
         let mut writer = Writer::create(self.folder.path(), self.name, &self.problem.columns())?;
-        writer.midplanes(model)?;
+        writer.midplanes(&self.problem.model)?;
         if matches!(self.scene.output.fields, Fields::Every | Fields::Step) {
-            writer.fields(model, &state.snapshot, 0, 0.0)?;
+            writer.fields(self.problem, &state.snapshot, 0, 0.0)?;
         }
         self.writer = Some(writer);
         Ok(())

@@ -9,7 +9,7 @@ mod rule;
 mod triangle;
 pub mod vector;
 
-pub use line::{Line2, Line3, lagrange2, lagrange3};
+pub use line::{LINE_NODES, Line2, Line3, LineValues, lagrange2, lagrange3};
 pub use map::{determinant, jacobian};
 pub use rule::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Rule};
 

@@ -91,7 +91,7 @@ impl Angles {
             angles.deviation.push(deviation);
             let of = |angle: f64| [angle.cos(), angle.sin()];
             let [start, end] = [of(of_nodes[0]), of(of_nodes[1])];
-            let mid = if chain.mids[e].is_some() { of(of_nodes[2]) } else { unit(plus(start, end)) };
+            let mid = if chain.is_straight(e) { unit(plus(start, end)) } else { of(of_nodes[2]) };
             angles.tangents.push([start, end, mid]);
         }
         angles
@@ -101,7 +101,7 @@ impl Angles {
     /// Nothing on a quadratic edge, which follows the curve itself.
     pub(in crate::coupling) fn to_curve(&self, chain: &Chain, e: usize, xi: f64) -> [f64; 2] {
         let [first, last] = self.deviation[e];
-        if chain.mids[e].is_some() || first == 0.0 && last == 0.0 {
+        if !chain.is_straight(e) || first == 0.0 && last == 0.0 {
             return [0.0; 2];
         }
         let [dx, dy] = chain.derivative(e, xi); // half the chord
@@ -136,9 +136,9 @@ fn own(chain: &Chain, e: usize) -> [f64; 3] {
         dy.atan2(dx)
     };
     let mid = angle(0.0);
-    match chain.mids[e] {
-        None => [mid; 3],
-        Some(_) => [near(angle(-1.0), mid), near(angle(1.0), mid), mid],
+    match chain.is_straight(e) {
+        true => [mid; 3],
+        false => [near(angle(-1.0), mid), near(angle(1.0), mid), mid],
     }
 }
 
@@ -213,7 +213,7 @@ fn smooth(chain: &Chain, own: &[[f64; 3]], line: &SmoothLine, angles: &mut [[f64
     nodes.push(last);
     for (i, &e) in line.edges.iter().enumerate() {
         let (start, end) = (nodes[i], near(nodes[i + 1], nodes[i]));
-        let mid = if chain.mids[e].is_some() { unrolled[i][2] } else { 0.5 * (start + end) };
+        let mid = if chain.is_straight(e) { 0.5 * (start + end) } else { unrolled[i][2] };
         angles[e] = [start, end, mid];
     }
 }

@@ -1,25 +1,30 @@
 //! The edges of one side in order: a chain of one or more runs, each open or closed.
 //!
 //! ```text
-//!   ends   0 ──── 1 ─────── 2 ── 3        with mid-nodes on quadratic edges
+//!   ends   0 ──── 1 ─────── 2 ── 3        with inner nodes on curved edges
 //! ```
 
 use super::link::{self, Corner, Link, Orientation, Side};
 use crate::error::Result;
 use crate::shape::vector::*;
-use crate::shape::{lagrange2, lagrange3};
+use crate::shape::{LINE_NODES, LineValues, Shape};
+
+/// Most inner nodes of an edge.
+const INNER: usize = LINE_NODES - 2;
 
 /// The edges of a side in order, run after run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Node numbers in the model: the edge ends in order, run after run, then the mid-nodes in order.
+    /// Node numbers in the model: the edge ends in order, run after run, then the inner nodes in order.
     pub nodes: Vec<usize>,
     /// Coordinates of the nodes from the origin of the mid-plane.
     pub points: Vec<[f64; 2]>,
     /// Places in `nodes` of start and end of every edge.
     pub ends: Vec<[usize; 2]>,
-    /// For every edge the place of its mid-node in `nodes`, if it has one.
-    pub mids: Vec<Option<usize>>,
+    /// Shape of every edge.
+    pub shapes: Vec<Shape>,
+    /// Places in `nodes` of the inner nodes of every edge, as many as it has.
+    inner: Vec<[usize; INNER]>,
     /// The connected lines of edges.
     pub runs: Vec<Run>,
     /// For every edge end whether the geometry may be kinked there.
@@ -51,26 +56,30 @@ impl Chain {
         let firsts = (0..links.len()).filter(|&i| !follows[i]);
         let mut used = vec![false; links.len()];
         let mut chain = Chain::empty();
-        let mut mids = Vec::new();
+        let mut order = Vec::new();
         for i in firsts.chain(0..links.len()) {
             if !used[i] {
-                chain.walk(&links, &next, &mut used, i, &mut mids);
+                chain.walk(&links, &next, &mut used, i, &mut order);
             }
         }
-        for mid in mids {
-            let place = mid.map(|(node, x)| {
+        for i in order {
+            let link = &links[i];
+            let mut inner = [0; INNER];
+            for (k, &node) in link.facet.nodes().iter().enumerate().skip(2) {
+                inner[k - 2] = chain.nodes.len();
                 chain.nodes.push(node);
-                chain.points.push(x);
-                chain.nodes.len() - 1
-            });
-            chain.mids.push(place);
+                chain.points.push(link.x[k]);
+            }
+            chain.shapes.push(link.facet.shape);
+            chain.inner.push(inner);
         }
         Ok(chain)
     }
 
     fn empty() -> Chain {
         let (nodes, points, ends) = (Vec::new(), Vec::new(), Vec::new());
-        Chain { nodes, points, ends, mids: Vec::new(), runs: Vec::new(), corners: Vec::new() }
+        let (shapes, inner) = (Vec::new(), Vec::new());
+        Chain { nodes, points, ends, shapes, inner, runs: Vec::new(), corners: Vec::new() }
     }
 
     /// Adds the run that starts with a link.
@@ -80,7 +89,7 @@ impl Chain {
         follower: &[usize],
         used: &mut [bool],
         first: usize,
-        mids: &mut Vec<Option<(usize, [f64; 2])>>,
+        order: &mut Vec<usize>,
     ) {
         let (first_edge, first_place) = (self.ends.len(), self.nodes.len());
         let mut add = |node: usize, x: [f64; 2], corner: Corner| {
@@ -95,7 +104,7 @@ impl Chain {
         while let Some(i) = next {
             let link = &links[i];
             used[i] = true;
-            mids.push(link.mid.map(|mid| (mid, link.x[2])));
+            order.push(i);
             next = Some(follower[i]).filter(|&next| next < links.len());
             closed = next == Some(first);
             if closed {
@@ -114,9 +123,16 @@ impl Chain {
         let mut chain = self.clone();
         for run in &chain.runs {
             chain.ends[run.edges.clone()].reverse();
-            chain.mids[run.edges.clone()].reverse();
+            chain.shapes[run.edges.clone()].reverse();
+            chain.inner[run.edges.clone()].reverse();
         }
         chain.ends.iter_mut().for_each(|ends| ends.reverse());
+        for (shape, inner) in chain.shapes.iter().zip(&mut chain.inner) {
+            let places = *inner;
+            for (k, &from) in shape.turned_line().iter().enumerate().skip(2) {
+                inner[k - 2] = places[from - 2];
+            }
+        }
         chain
     }
 
@@ -125,15 +141,20 @@ impl Chain {
         self.ends.len()
     }
 
-    /// Places in `nodes` of an edge's start, end and, if it is quadratic, mid-node.
+    /// Places in `nodes` of an edge's start, end and inner nodes.
     pub(in crate::coupling) fn edge(&self, e: usize) -> impl Iterator<Item = usize> {
-        let [start, end] = self.ends[e];
-        [Some(start), Some(end), self.mids[e]].into_iter().flatten()
+        let inner = self.shapes[e].nodes() - 2;
+        self.ends[e].into_iter().chain(self.inner[e].into_iter().take(inner))
     }
 
-    /// True if every edge has a mid-node.
+    /// True if an edge is straight, whatever its nodes.
+    pub(in crate::coupling) fn is_straight(&self, e: usize) -> bool {
+        !self.shapes[e].is_quadratic()
+    }
+
+    /// True if every edge has inner nodes.
     pub(in crate::coupling) fn is_quadratic(&self) -> bool {
-        self.mids.iter().all(Option::is_some)
+        self.shapes.iter().all(|shape| shape.is_quadratic())
     }
 
     /// Distance of the ends of an edge [length].
@@ -142,13 +163,9 @@ impl Chain {
         norm(minus(q, p))
     }
 
-    /// Shape functions of an edge and their derivatives at ξ: start, end, mid-node.
-    pub(in crate::coupling) fn functions(&self, e: usize, xi: f64) -> ([f64; 3], [f64; 3]) {
-        if self.mids[e].is_some() {
-            return lagrange3(xi);
-        }
-        let (n, dn) = lagrange2(xi);
-        ([n[0], n[1], 0.0], [dn[0], dn[1], 0.0])
+    /// Shape functions of an edge and their derivatives at ξ: start, end, inner nodes.
+    pub(in crate::coupling) fn functions(&self, e: usize, xi: f64) -> (LineValues, LineValues) {
+        self.shapes[e].line_functions(xi)
     }
 
     /// The point of an edge at ξ.
@@ -161,7 +178,7 @@ impl Chain {
         self.combine(e, self.functions(e, xi).1)
     }
 
-    fn combine(&self, e: usize, factors: [f64; 3]) -> [f64; 2] {
+    fn combine(&self, e: usize, factors: LineValues) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for (place, factor) in self.edge(e).zip(factors) {
             for d in 0..2 {

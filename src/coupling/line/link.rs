@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Facet;
+use crate::shape::LINE_NODES;
 
 /// A curve of a side, as the mesh gives it: edges with their body on the left. A side is a list of such curves.
 #[derive(Debug, Clone, Copy)]
@@ -36,10 +37,10 @@ pub(in crate::coupling) struct Link {
     pub start: usize,
     /// Node of the model.
     pub end: usize,
-    /// Mid-node, if it has one.
-    pub mid: Option<usize>,
-    /// Start, end and mid-node from the origin.
-    pub x: [[f64; 2]; 3],
+    /// Its facet, walked from start to end, with nodes of the model.
+    pub facet: Facet,
+    /// Its nodes from the origin.
+    pub x: [[f64; 2]; LINE_NODES],
     /// Knowledge of the start.
     pub corner: Corner,
 }
@@ -106,24 +107,22 @@ pub(in crate::coupling) fn names(curves: &[Side]) -> String {
 
 impl Link {
     fn new(curve: &Side, edge: &Facet, subdomain: Orientation, origin: [f64; 2]) -> Link {
-        let nodes = edge.nodes();
-        let (mut start, mut end, mid) = (nodes[0], nodes[1], nodes.get(2).copied());
-        if subdomain == Orientation::Right {
-            (start, end) = (end, start);
-        }
+        let facet = if subdomain == Orientation::Right { edge.turned() } else { *edge };
+        let (start, end) = (facet.nodes()[0], facet.nodes()[1]);
         let corner = match curve.corners {
             [] => Corner::Unknown,
             corners if corners.binary_search(&start).is_ok() => Corner::Yes,
             _ => Corner::No,
         };
-        let x = [start, end, mid.unwrap_or(end)].map(|node| {
+        let mut x = [[0.0; 2]; LINE_NODES];
+        for (x, &node) in x.iter_mut().zip(facet.nodes()) {
             let p = curve.points[node];
-            [p[0] - origin[0], p[1] - origin[1]]
-        });
+            *x = [p[0] - origin[0], p[1] - origin[1]];
+        }
         Link {
             start: curve.first + start,
             end: curve.first + end,
-            mid: mid.map(|m| curve.first + m),
+            facet: facet.renumbered(|node| curve.first + node),
             x,
             corner,
         }

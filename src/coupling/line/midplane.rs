@@ -85,7 +85,7 @@ impl LineMidplane {
     pub(in crate::coupling) fn measure(&self, segment: usize) -> f64 {
         let g = &self.segments[segment];
         let speed = |eta: f64| norm(self.along(g, eta).2);
-        if self.a.mids[g.edge_a].is_none() && self.b.mids[g.edge_b].is_none() {
+        if self.a.is_straight(g.edge_a) && self.b.is_straight(g.edge_b) {
             return 2.0 * speed(0.0); // two straight edges: constant
         }
         GAUSS_3.iter().map(|&[eta, weight]| weight * speed(eta)).sum()
@@ -118,11 +118,11 @@ impl LineMidplane {
 fn within(chain: &Chain, e: usize, range: [f64; 2], eta: f64) -> (f64, f64) {
     let [low, high] = range;
     let linear = 0.5 * ((1.0 - eta) * low + (1.0 + eta) * high);
-    let Some(mid) = chain.mids[e] else {
+    if chain.is_straight(e) {
         return (linear, 0.5 * (high - low));
-    };
+    }
     let [p, q] = chain.ends[e].map(|place| chain.points[place]);
-    let m = chain.points[mid];
+    let m = chain.point(e, 0.0);
     // x = m + slope ξ + bend ξ²
     let slope = [0, 1].map(|d| 0.5 * (q[d] - p[d]));
     let bend = [0, 1].map(|d| 0.5 * ((p[d] - m[d]) + (q[d] - m[d])));

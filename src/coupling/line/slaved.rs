@@ -117,10 +117,13 @@ fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) 
     if on_node(xi, 1.0) {
         return end;
     }
-    match (start, end, chain.mids[edge].map_or(start, of)) {
-        (Support::Free, ..) | (_, Support::Free, _) | (.., Support::Free) => Support::Free,
-        (Support::Fixed, Support::Fixed, Support::Fixed) => Support::Fixed,
-        _ => Support::Moved,
+    let all: Vec<Support> = chain.edge(edge).map(of).collect();
+    if all.contains(&Support::Free) {
+        Support::Free
+    } else if all.contains(&Support::Moved) {
+        Support::Moved
+    } else {
+        Support::Fixed
     }
 }
 

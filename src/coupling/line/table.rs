@@ -8,7 +8,7 @@ use super::slaved::slaved;
 use super::{Chain, LineMidplane, Side, join};
 use crate::error::Result;
 use crate::shape::vector::{in_space, minus, plus};
-use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule, Shape};
+use crate::shape::{GAUSS_2, GAUSS_3, LOBATTO_2, LOBATTO_3, LineRule};
 
 /// The places of two sides, each a list of curves, for a scheme. `name` is the interface's, for messages.
 ///
@@ -33,9 +33,8 @@ pub fn table(name: &str, a: &[Side], b: &[Side], scheme: Scheme, around: Surroun
 }
 
 fn facets(chain: &Chain) -> Facets {
-    let shape = |mid: &Option<usize>| if mid.is_some() { Shape::Line3 } else { Shape::Line2 };
     Facets {
-        shapes: chain.mids.iter().map(shape).collect(),
+        shapes: chain.shapes.clone(),
         corners: (0..chain.edges()).map(|e| chain.edge(e).collect()).collect(),
         nodes: chain.nodes.clone(),
         points: chain.points.iter().map(|&x| in_space(x)).collect(),
@@ -66,7 +65,7 @@ fn place(c: &LineMidplane, segment: usize, eta: f64, s: f64) -> (Place, f64) {
 
 /// Quadrature points of the segments, with the functions of the grid; a quadratic side needs three also on a linear grid.
 fn projection(c: &LineMidplane, grid: &MidplaneGrid) -> Vec<Vec<Place>> {
-    let any = c.a.mids.iter().chain(&c.b.mids).any(Option::is_some);
+    let any = c.a.shapes.iter().chain(&c.b.shapes).any(|shape| shape.is_quadratic());
     let mut cell = 0;
     let places = c.segments.iter().enumerate().map(|(g, segment)| {
         while 0.5 * (segment.start + segment.end) > grid.cells[cell].end && cell + 1 < grid.cells.len() {
@@ -104,7 +103,7 @@ fn on_cells(c: &LineMidplane, grid: &MidplaneGrid, points: Points, quadratic: bo
 fn on_segments(c: &LineMidplane, points: Points) -> Vec<Place> {
     let mut places: Vec<Place> = Vec::new();
     for (g, segment) in c.segments.iter().enumerate() {
-        let quadratic = c.a.mids[segment.edge_a].is_some() || c.b.mids[segment.edge_b].is_some();
+        let quadratic = !(c.a.is_straight(segment.edge_a) && c.b.is_straight(segment.edge_b));
         let first = places.len();
         for &[eta, weight] in rule(points, quadratic) {
             let s = segment.start + 0.5 * (segment.end - segment.start) * (1.0 + eta);

@@ -1,6 +1,6 @@
 //! The content of a mesh file, and what may be wrong with it.
 
-use crate::shape::Shape;
+use crate::shape::{LINE_NODES, Shape};
 
 /// A fault of a file and its remedy; the caller knows its name.
 #[derive(Debug)]
@@ -27,8 +27,10 @@ pub(in crate::mesh) struct Content {
     pub(in crate::mesh) off_plane: (f64, u64),
     /// Physical points: node.
     pub(in crate::mesh) vertices: Vec<u32>,
-    /// Elements of curves: start, end and mid-node, `u32::MAX` without one.
-    pub(in crate::mesh) edges: Vec<[u32; 3]>,
+    /// Shapes of the elements of curves.
+    pub(in crate::mesh) edge_shapes: Vec<Shape>,
+    /// Their nodes: ends, then inner nodes, as many as each has.
+    pub(in crate::mesh) edges: Vec<[u32; LINE_NODES]>,
     /// Shapes of the cells.
     pub(in crate::mesh) shapes: Vec<Shape>,
     /// Nodes of the cells, one after the other.

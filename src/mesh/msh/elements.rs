@@ -12,6 +12,7 @@ use super::element::ElementKind;
 use super::entities::Entities;
 use super::pieces::{Decoder, pieces};
 use super::tags::Tags;
+use crate::shape::LINE_NODES;
 
 /// Reads the elements that belong to the mesh into `content`.
 pub(super) fn read(
@@ -78,7 +79,10 @@ impl Content {
         self.tags[kind.dim() as usize].reserve(count);
         match kind {
             ElementKind::Point => self.vertices.reserve(count),
-            ElementKind::Edge(_) => self.edges.reserve(count),
+            ElementKind::Edge(_) => {
+                self.edge_shapes.reserve(count);
+                self.edges.reserve(count);
+            }
             ElementKind::Cell(shape) => {
                 self.shapes.reserve(count);
                 self.cell_nodes.reserve(count * shape.nodes());
@@ -95,11 +99,13 @@ impl Content {
         self.tags[kind.dim() as usize].push(tag);
         match (kind, nodes) {
             (ElementKind::Point, &[node]) => self.vertices.push(number(node)?),
-            (ElementKind::Edge(_), &[start, end]) => {
-                self.edges.push([number(start)?, number(end)?, u32::MAX])
-            }
-            (ElementKind::Edge(_), &[start, end, mid]) => {
-                self.edges.push([number(start)?, number(end)?, number(mid)?])
+            (ElementKind::Edge(shape), nodes) if nodes.len() == shape.nodes() => {
+                let mut edge = [0; LINE_NODES];
+                for (place, &node) in edge.iter_mut().zip(nodes) {
+                    *place = number(node)?;
+                }
+                self.edge_shapes.push(shape);
+                self.edges.push(edge);
             }
             (ElementKind::Cell(shape), nodes) if nodes.len() == shape.nodes() => {
                 self.shapes.push(shape);
