@@ -68,7 +68,7 @@ pub struct Nodes {
     pub slaved: Vec<Slaved>,
 }
 
-/// A component of a grid node that follows other nodes.
+/// A component of a grid node that is no unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slaved {
     /// The node.

@@ -7,18 +7,21 @@
 //!
 //! The same holds where more than two bodies meet: the jumps around the point sum to zero. Such a component is no unknown. It
 //! follows the two nearest nodes that are kept, linearly; at a plane of symmetry, where only the direction along C is fixed for
-//! good, it is zero, as is the shear. Kept are nodes where first edges match (the classical element), nodes next to others that
+//! good, it is zero, as is the shear; where that direction is driven it is kept. Kept are nodes where first edges match (the classical element), nodes next to others that
 //! are held alike, all where fewer than two would remain, and all of a linear grid on quadratic sides, which leave it room. What
 //! is held in any step is held here, so that the grid is one for the whole history.
 
 use super::super::place::Slaved;
 use super::super::{Support, Surroundings};
 use super::cells::MidplaneGrid;
+use super::segment::Segment;
 use super::{Chain, LineMidplane};
 use crate::shape::vector::dot;
 
 /// C runs along an axis within this.
 const ALONG: f64 = 1e-6;
+/// Edges so many times shorter than those that face them can follow them.
+const ROOM: f64 = 4.0;
 /// A grid node lies on a node of a side within this, of ξ.
 const ON_NODE: f64 = 1e-9;
 const AXES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
@@ -47,22 +50,22 @@ pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, around: Surroundings
             let held = |i: usize| nodes.get(i).is_some_and(|node| node.held[d] != Support::Free);
             let alone = |i: usize| held(i) && !held(i + 1) && !(i > 0 && held(i - 1));
             let ends = |i: usize| i == 0 || i + 1 == nodes.len();
-            let slaves: Vec<usize> =
-                (0..nodes.len()).filter(|&i| alone(i) || ends(i) && nodes[i].junction).collect();
+            // only the direction along C is held: the jump is known there
+            let along = |i: usize| {
+                let (segment, eta) = c.locate(piece, nodes[i].s);
+                let [_, tangent] = c.spot(segment, eta).rotation;
+                nodes[i].held[1 - d] == Support::Free && dot(tangent, axis).abs() >= 1.0 - ALONG
+            };
+            let is_zero = |i: usize| !nodes[i].junction && nodes[i].held[d] == Support::Fixed && along(i);
+            let follows = |i: usize| ends(i) && nodes[i].junction || alone(i) && (is_zero(i) || !along(i));
+            let slaves: Vec<usize> = (0..nodes.len()).filter(|&i| follows(i)).collect();
             if piece.closed || nodes.len() < slaves.len() + 2 {
                 continue;
             }
-            for &i in &slaves {
-                let GridNode { node, s, held, junction } = nodes[i];
-                let (segment, eta) = c.locate(piece, s);
-                let [_, tangent] = c.spot(segment, eta).rotation;
-                let symmetric = held[d] == Support::Fixed
-                    && held[1 - d] == Support::Free
-                    && dot(tangent, axis).abs() >= 1.0 - ALONG
-                    && !junction;
-                let from = if symmetric { Vec::new() } else { line_through(&nodes, &slaves, s) };
-                found.push(Slaved { node, component: d, from });
-            }
+            found.extend(slaves.iter().map(|&i| {
+                let from = if is_zero(i) { Vec::new() } else { line_through(&nodes, &slaves, nodes[i].s) };
+                Slaved { node: nodes[i].node, component: d, from }
+            }));
         }
     }
     found
@@ -78,9 +81,9 @@ fn line_through(nodes: &[GridNode], slaves: &[usize], s: f64) -> Vec<(usize, f64
     vec![(a.node, 1.0 - share), (b.node, share)]
 }
 
-/// A node of the grid with what is around it; nothing where the edges next to it match.
+/// A node of the grid with what is around it; nothing where the edges next to it match or leave room.
 fn grid_node(c: &LineMidplane, p: usize, node: usize, s: f64, around: Surroundings) -> GridNode {
-    if matches(c, p, s) {
+    if fits(c, p, s) {
         return GridNode { node, s, held: [Support::Free; 2], junction: false };
     }
     let (segment, eta) = c.locate(&c.pieces[p], s);
@@ -127,10 +130,14 @@ fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) 
     }
 }
 
-/// True if the edges of both sides next to a place are the same.
-fn matches(c: &LineMidplane, p: usize, s: f64) -> bool {
+/// True if the edges of both sides next to a place are the same, or those of one side so short that they can follow the other.
+fn fits(c: &LineMidplane, p: usize, s: f64) -> bool {
     let whole = |xi: [f64; 2]| xi == [-1.0, 1.0];
     let segments = &c.segments[c.pieces[p].segments.clone()];
-    let mut near = segments.iter().filter(|g| g.start == s || g.end == s).peekable();
-    near.peek().is_some() && near.all(|g| whole(g.xi_a) && whole(g.xi_b))
+    let near = || segments.iter().filter(|g| g.start == s || g.end == s);
+    let roomy = |g: &Segment| {
+        let (a, b) = (c.a.chord(g.edge_a), c.b.chord(g.edge_b));
+        a.max(b) >= ROOM * a.min(b)
+    };
+    near().next().is_some() && (near().all(|g| whole(g.xi_a) && whole(g.xi_b)) || near().all(roomy))
 }
