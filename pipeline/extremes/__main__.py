@@ -13,7 +13,8 @@ import traceback
 from pathlib import Path
 
 import report
-import rows_facing  # noqa: F401  rows register themselves
+import rows_ends  # noqa: F401  rows register themselves
+import rows_facing  # noqa: F401
 import rows_geometry  # noqa: F401
 import rows_gmsh  # noqa: F401
 import rows_junction  # noqa: F401
@@ -39,7 +40,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="shorter sweeps, for every change")
     parser.add_argument("rows", nargs="*", help="only these, such as B9")
     arguments = parser.parse_intermixed_args()
-    missing = [f"B{i}" for i in range(1, 43) if f"B{i}" not in [entry[0] for entry in ROWS]]
+    missing = [f"B{i}" for i in range(1, 47) if f"B{i}" not in [entry[0] for entry in ROWS]]
     if missing:
         sys.exit(f"there is no row {', '.join(missing)}")
     chosen = [entry for entry in ROWS if not arguments.rows or entry[0] in arguments.rows]

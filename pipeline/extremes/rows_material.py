@@ -106,7 +106,9 @@ def modulus(t):
         run = t.program.run(patch.scene(), patch.meshes(7, 11, "Q4")).need()
         patches.append(patch.errors(run))
         t.below(f"case 1b, E_B/E_A = {ratio:g}: displacement", patches[-1][0], 1e-10)
-        t.below(f"case 1b, E_B/E_A = {ratio:g}: traction", patches[-1][1], 1e-10)
+        # the softer body feels the rounding of the stiffer one
+        rounding = 4 * np.finfo(float).eps * max(ratio, 1 / ratio)
+        t.below(f"case 1b, E_B/E_A = {ratio:g}: traction", patches[-1][1], max(1e-10, rounding))
         ring_errors.append(ring_error(t, ratio))
         t.below(f"case 3, E_B/E_A = {ratio:g}: displacement", ring_errors[-1][0], 1e-3)
         t.below(f"case 3, E_B/E_A = {ratio:g}: tractions", ring_errors[-1][1], 1e-3)

@@ -56,28 +56,37 @@ impl Slaves {
     }
 
     fn mass(&self, slaves: &BTreeMap<usize, Vec<(usize, f64)>>, mass: &[f64], band: usize) -> Banded {
-        let own = |i: usize| slaves.get(&i).cloned().unwrap_or_else(|| vec![(i, 1.0)]);
-        let mut entries: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        // a row next to a slave meets what the slave meets
+        let reach = |(&s, from): (&usize, &Vec<(usize, f64)>)| {
+            let near = s.saturating_sub(band)..(s + band + 1).min(self.count);
+            let others = near.filter(|&j| j != s).chain(from.iter().map(|(f, _)| *f));
+            let meets = others.clone().any(|j| slaves.contains_key(&j));
+            let farthest = from.iter().flat_map(|(f, _)| others.clone().map(|j| f.abs_diff(j))).max();
+            farthest.unwrap_or(0) + if meets { 2 * band } else { 0 }
+        };
+        let width = slaves.iter().map(reach).max().unwrap_or(0).max(band).min(self.count - 1);
+        let at = |i: usize, j: usize| i.max(j) * (width + 1) + width + i.min(j) - i.max(j);
+        let mut rows = vec![0.0; (width + 1) * self.count];
         for i in 0..self.count {
             for j in i.saturating_sub(band)..=i {
-                let value = mass[i * (band + 1) + band + j - i];
-                let mut add = |p: &[(usize, f64)], q: &[(usize, f64)]| {
-                    for &(p, left) in p {
-                        for &(q, right) in q.iter().filter(|(q, _)| *q <= p) {
-                            *entries.entry((p, q)).or_default() += left * right * value;
-                        }
-                    }
-                };
-                add(&own(i), &own(j));
-                if i != j {
-                    add(&own(j), &own(i));
-                }
+                rows[at(i, j)] = mass[i * (band + 1) + band + j - i];
             }
         }
-        slaves.keys().for_each(|&i| _ = entries.insert((i, i), 1.0));
-        let width = entries.keys().map(|(i, j)| i - j).max().unwrap_or(0);
-        let mut rows = vec![0.0; (width + 1) * self.count];
-        entries.into_iter().for_each(|((i, j), value)| rows[i * (width + 1) + width + j - i] = value);
+        for (&s, from) in slaves {
+            let near = s.saturating_sub(width)..(s + width + 1).min(self.count);
+            let own = rows[at(s, s)];
+            let coupled: Vec<(usize, f64)> =
+                near.filter(|&j| j != s).map(|j| (j, std::mem::take(&mut rows[at(s, j)]))).collect();
+            for &(f, weight) in from {
+                for &(j, value) in coupled.iter().filter(|(_, value)| *value != 0.0) {
+                    rows[at(f, j)] += weight * value * if f == j { 2.0 } else { 1.0 };
+                }
+                for &(g, other) in from.iter().filter(|(g, _)| *g <= f) {
+                    rows[at(f, g)] += weight * other * own;
+                }
+            }
+            rows[at(s, s)] = 1.0;
+        }
         Banded::factor(width, rows)
     }
 
@@ -87,15 +96,67 @@ impl Slaves {
             return jump;
         }
         let c = self.components;
-        let mut entries = Vec::with_capacity(jump.values.len());
+        let mut found = Csr { offsets: vec![0], width: jump.width, ..Csr::default() };
         for row in 0..jump.rows() {
-            let own = vec![(row / c, 1.0)];
-            for &(i, weight) in self.by_node[row % c].get(&(row / c)).unwrap_or(&own) {
-                let (columns, values) = jump.row(c * i + row % c);
-                entries
-                    .extend(columns.iter().zip(values).map(|(&column, value)| (row, column, weight * value)));
+            match self.by_node[row % c].get(&(row / c)) {
+                None => {
+                    let (columns, values) = jump.row(row);
+                    found.columns.extend_from_slice(columns);
+                    found.values.extend_from_slice(values);
+                }
+                Some(from) => {
+                    let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+                    for &(i, weight) in from {
+                        let (columns, values) = jump.row(c * i + row % c);
+                        for (&column, value) in columns.iter().zip(values) {
+                            *sum.entry(column).or_default() += weight * value;
+                        }
+                    }
+                    found.columns.extend(sum.keys());
+                    found.values.extend(sum.values());
+                }
+            }
+            found.offsets.push(found.columns.len());
+        }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coupling::place::Slaved;
+
+    /// Pᵀ M P by dense products against what the banded one solves.
+    #[test]
+    fn the_mass_of_kept_nodes_is_that_of_dense_products() {
+        let (n, band) = (6, 1);
+        let mut mass = vec![0.0; 2 * n];
+        (0..n).for_each(|i| (mass[2 * i], mass[2 * i + 1]) = (if i > 0 { 1.0 } else { 0.0 }, 4.0 + i as f64));
+        let from = [(0, vec![(1, 2.0), (2, -1.0)]), (3, vec![(2, 0.5), (4, 0.5)]), (5, Vec::new())];
+        let slaved = from.iter().map(|(node, from)| Slaved { node: *node, component: 0, from: from.clone() });
+        let nodes = Nodes { count: n, row: (0..n).collect(), band, slaved: slaved.collect() };
+        let slaves = Slaves::new(&nodes, 1);
+        let dense = |i: usize, j: usize| match i.abs_diff(j) {
+            0 => 4.0 + i as f64,
+            1 => 1.0,
+            _ => 0.0,
+        };
+        let p = |i: usize, k: usize| match from.iter().find(|(node, _)| *node == i) {
+            Some((_, from)) => from.iter().find(|(node, _)| *node == k).map_or(0.0, |(_, w)| *w),
+            None => f64::from(u8::from(i == k)),
+        };
+        let x = [0.0, 0.3, -0.7, 0.0, 1.1, 0.0];
+        let mut b = vec![0.0; n];
+        for k in [1, 2, 4] {
+            for i in 0..n {
+                for j in 0..n {
+                    b[k] += (0..n).map(|l| p(i, k) * dense(i, j) * p(j, l) * x[l]).sum::<f64>();
+                }
             }
         }
-        Csr::from_triplets(jump.rows(), jump.width, &entries)
+        let factored = &slaves.masses(&mass, band)[0];
+        factored.solve(&mut b, 0, n);
+        (0..n).for_each(|i| assert!((b[i] - x[i]).abs() < 1e-14, "{b:?}"));
     }
 }

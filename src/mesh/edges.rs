@@ -104,6 +104,7 @@ impl EdgeTable {
 }
 
 /// Start, end and mid-node of edge `e` of cell `c`; the end again on linear cells.
+#[inline]
 pub(super) fn edge(cells: &Cells, c: usize, e: usize) -> [usize; 3] {
     let (shape, nodes) = (cells.shapes[c], cells.nodes(c));
     let [start, end, mid] = shape.edge(e);
@@ -111,12 +112,14 @@ pub(super) fn edge(cells: &Cells, c: usize, e: usize) -> [usize; 3] {
 }
 
 /// An edge as a facet.
-fn facet(nodes: [usize; 3], cell: usize, boundary: bool) -> Facet {
+pub(super) fn facet(nodes: [usize; 3], cell: usize, boundary: bool) -> Facet {
     let count = if nodes[2] == nodes[1] { 2 } else { 3 };
     Facet::edge(&nodes[..count], cell, boundary)
 }
 
-fn each_edge(cells: &Cells, mut visit: impl FnMut(usize, [usize; 3])) {
+/// Every edge of every cell, with that cell on its left.
+#[inline]
+pub(super) fn each_edge(cells: &Cells, mut visit: impl FnMut(usize, [usize; 3])) {
     for c in 0..cells.len() {
         for e in 0..cells.shapes[c].corners() {
             visit(c, edge(cells, c, e));

@@ -17,6 +17,7 @@ mod groups;
 mod log;
 mod mirror;
 mod msh;
+mod open;
 mod part;
 mod pieces;
 mod quality;
@@ -30,6 +31,7 @@ use indexmap::IndexMap;
 
 pub use cache::{Job, Meshed, digest, mesh_all, parameters};
 pub use gmsh::Gmsh;
+pub use open::Branch;
 pub use pieces::Pieces;
 pub use read::{from_bytes, is_earlier_format, read};
 pub use touch::{Touch, coinciding, touching};

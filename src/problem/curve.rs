@@ -26,6 +26,7 @@ pub(super) struct PlannedInterface<'a> {
 pub struct Joining<'a> {
     pub(super) sides: [&'a Option<OneOrMany>; 2],
     pub(super) between: &'a Option<[String; 2]>,
+    pub(super) within: &'a Option<OneOrMany>,
     coupling: CouplingKind,
     grid: Grid,
     quadrature: Quadrature,
@@ -39,6 +40,7 @@ impl<'a> Joining<'a> {
             side_a,
             side_b,
             between,
+            within,
             coupling,
             grid,
             quadrature,
@@ -49,7 +51,7 @@ impl<'a> Joining<'a> {
         } = stated;
         let gap = if initial_gap.is_some() { Gap::Open } else { Gap::Closed };
         let (coupling, grid, quadrature) = (*coupling, *grid, *quadrature);
-        Joining { sides: [side_a, side_b], between, coupling, grid, quadrature, gap }
+        Joining { sides: [side_a, side_b], between, within, coupling, grid, quadrature, gap }
     }
 }
 
@@ -107,11 +109,11 @@ impl PlannedInterface<'_> {
             curves.collect()
         });
         let quadrilaterals = || self.sides.iter().flatten().all(|curve| on_quadrilaterals(model, curve));
-        let Joining { coupling, grid, quadrature, gap, .. } = Joining::of(self.stated);
+        let Joining { within, coupling, grid, quadrature, gap, .. } = Joining::of(self.stated);
         let kind = match (coupling, grid) {
             (CouplingKind::Pointwise, _) => JumpScheme::Pointwise,
             (_, Grid::Quadratic) => JumpScheme::Projected,
-            (_, Grid::Auto) if quadrilaterals() => JumpScheme::Projected,
+            (_, Grid::Auto) if within.is_some() || quadrilaterals() => JumpScheme::Projected,
             (_, Grid::Auto | Grid::Linear) => JumpScheme::ProjectedLinear,
         };
         let points = match quadrature {

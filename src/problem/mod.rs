@@ -23,6 +23,7 @@ mod survey;
 mod unjoined;
 mod unused;
 mod warnings;
+mod within;
 
 pub use curve::joinings;
 pub use gap::Gaps;
@@ -122,7 +123,8 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     };
     let mut warnings = warnings::locking(&model.subdomains);
     let mut interfaces = Vec::new();
-    let plans = plan::plans(scene, &model)?;
+    let opened = within::open(scene, &mut model)?;
+    let plans = plan::plans(scene, &model, opened)?;
     let (supports, junctions) = (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans));
     let around = Surroundings { supports: &supports, junctions: &junctions };
     for (k, plan) in plans.iter().enumerate() {

@@ -10,6 +10,9 @@ use crate::scene::Scene;
 
 /// Nodes at which interfaces of more than two bodies meet.
 pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> {
+    if plans.len() < 2 {
+        return Vec::new();
+    }
     let mut bodies: HashMap<usize, Vec<usize>> = HashMap::new();
     for plan in plans {
         let pair: Vec<usize> = plan.sides.iter().flatten().map(|curve| curve.subdomain).collect();
@@ -26,8 +29,12 @@ pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> 
     found
 }
 
-/// All interfaces in the order of the scene; those of one `between` in the order of the subdomains.
-pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<PlannedInterface<'a>>> {
+/// All interfaces in the order of the scene; those of one `between` in the order of the subdomains. `opened`: those within bodies.
+pub(super) fn plans<'a>(
+    scene: &'a Scene,
+    model: &Model,
+    mut opened: Vec<PlannedInterface<'a>>,
+) -> Result<Vec<PlannedInterface<'a>>> {
     let mut named: HashMap<&str, PlannedInterface> = HashMap::new();
     for (entry, stated) in &scene.interfaces {
         if let [Some(a), Some(b)] = Joining::of(stated).sides {
@@ -36,13 +43,14 @@ pub(super) fn plans<'a>(scene: &'a Scene, model: &Model) -> Result<Vec<PlannedIn
         }
     }
     let mut taken = between::JoinedEdges::default();
-    named.values().for_each(|plan| taken.add(&plan.sides));
+    named.values().chain(&opened).for_each(|plan| taken.add(&plan.sides));
     let mut plans = Vec::new();
     for (entry, stated) in &scene.interfaces {
         match Joining::of(stated).between {
             Some(patterns) => plans.extend(between::pairs(scene, model, (entry, stated), patterns, &taken)?),
             None => plans.extend(named.remove(entry.as_str())),
         }
+        plans.extend(opened.extract_if(.., |plan| plan.entry == entry));
     }
     Ok(plans)
 }

@@ -23,6 +23,10 @@ pub struct Interface {
     /// of the first (side A) touches one of the second, there is an interface `NAME~A~B`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[String; 2]>,
+    /// In place of the sides: curves drawn inside a body, along which its mesh is opened. Ends inside the body stay closed; where
+    /// curves cross or meet, every branch is an interface of its own, `NAME~1`, `NAME~2`, …
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<OneOrMany>,
     /// Coupling of the unmatched sides.
     #[serde(default)]
     pub coupling: CouplingKind,
@@ -88,7 +92,8 @@ pub enum CouplingKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Grid {
-    /// Quadratic between quadratic quadrilaterals, else linear: the trace of a T6 mesh does not bear a quadratic traction.
+    /// Quadratic between quadratic quadrilaterals and along quadratic curves within a body, else linear: the trace of a T6 mesh does
+    /// not bear a quadratic traction.
     #[default]
     Auto,
     /// Linear, two law points per cell.
@@ -126,11 +131,12 @@ impl Interface {
 }
 
 impl Scene {
-    /// The entry of `interfaces` that an interface of the model comes from: its own, or that before `~A~B`.
+    /// The entry of `interfaces` that an interface of the model comes from: its own, or that before `~`.
     pub fn entry(&self, name: &str) -> Option<(&str, &Interface)> {
         let key = name.split(JOINED).next().unwrap_or(name);
         let (key, interface) = self.interfaces.get_key_value(key)?;
-        (interface.between.is_some() == name.contains(JOINED)).then_some((key, interface))
+        let joined = name.contains(JOINED);
+        (interface.within.is_some() || interface.between.is_some() == joined).then_some((key, interface))
     }
 }
 

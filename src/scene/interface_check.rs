@@ -16,16 +16,21 @@ impl Scene {
             let help = "rename one of them: both name a file of results";
             return Err(self.source.error_at(&path, format!("\"{name}\" is also a subdomain"), help));
         }
-        match (&interface.side_a, &interface.side_b, &interface.between) {
-            (Some(a), Some(b), None) => self.check_sides(name, [a, b])?,
-            (None, None, Some(patterns)) => self.check_patterns(name, patterns)?,
-            (_, _, Some(_)) => {
+        match (&interface.side_a, &interface.side_b, &interface.between, &interface.within) {
+            (Some(a), Some(b), None, None) => self.check_sides(name, [a, b])?,
+            (None, None, Some(patterns), None) => self.check_patterns(name, patterns)?,
+            (None, None, None, Some(curves)) => self.check_curves(name, "within", curves)?,
+            (_, _, Some(_), None) => {
                 let (what, help) = ("both \"between\" and a side", "keep \"between\", or both sides");
                 return Err(self.source.error_at(&path, what, help));
             }
-            (a, _, None) => {
+            (.., Some(_)) => {
+                let help = "keep \"within\" alone: it has both faces of its curves";
+                return Err(self.source.error_at(&path, "both \"within\" and a side or \"between\"", help));
+            }
+            (a, _, None, None) => {
                 let missing = if a.is_none() { "side_a" } else { "side_b" };
-                let help = "give \"side_a\" and \"side_b\", or \"between\" with two patterns of subdomains";
+                let help = "give \"side_a\" and \"side_b\", \"between\" with two patterns of subdomains, or \"within\" with curves inside a body";
                 return Err(self.source.error_at(&path, format!("the key \"{missing}\" is missing"), help));
             }
         }
@@ -63,27 +68,29 @@ impl Scene {
 
     fn check_sides(&self, name: &str, sides: [&OneOrMany; 2]) -> Result<()> {
         for (key, side) in ["side_a", "side_b"].into_iter().zip(sides) {
-            let path = ["interfaces", name, key];
-            if side.names().is_empty() {
-                return Err(self.source.error_at(&path, "no curve", "name one, such as \"lower.top\""));
-            }
-            for group in side.names() {
-                check_group(self, &path, group)?;
-                if split_group(group).1.is_none() {
-                    let what = format!("\"{group}\" is a whole body");
-                    return Err(self.source.error_at(
-                        &path,
-                        what,
-                        format!("name a curve of it, such as \"{group}.top\""),
-                    ));
-                }
-            }
+            self.check_curves(name, key, side)?;
         }
         let [a, b] = sides;
         if let Some(both) = a.names().iter().find(|name| b.names().contains(name)) {
             let what = format!("\"{both}\" is on both sides");
-            let help = "an interface lies between two different curves";
+            let help = "an interface lies between two different curves; \"within\" opens a curve inside a body, with both its faces";
             return Err(self.source.error_at(&["interfaces", name], what, help));
+        }
+        Ok(())
+    }
+
+    fn check_curves(&self, name: &str, key: &str, side: &OneOrMany) -> Result<()> {
+        let path = ["interfaces", name, key];
+        if side.names().is_empty() {
+            return Err(self.source.error_at(&path, "no curve", "name one, such as \"lower.top\""));
+        }
+        for group in side.names() {
+            check_group(self, &path, group)?;
+            if split_group(group).1.is_none() {
+                let what = format!("\"{group}\" is a whole body");
+                let help = format!("name a curve of it, such as \"{group}.top\"");
+                return Err(self.source.error_at(&path, what, help));
+            }
         }
         Ok(())
     }

@@ -44,8 +44,17 @@ pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, around: Surroundings
         return found;
     }
     for (p, piece) in c.pieces.iter().enumerate() {
-        let nodes: Vec<GridNode> =
-            grid.along(p).into_iter().map(|(node, s)| grid_node(c, p, node, s, around)).collect();
+        let mut segment = piece.segments.start;
+        let mut grid_node = |(node, s): (usize, f64)| {
+            while segment + 1 < piece.segments.end && c.segments[segment + 1].start <= s {
+                segment += 1;
+            }
+            GridNode::new(c, p, segment, node, s, around)
+        };
+        let nodes: Vec<GridNode> = grid.along(p).into_iter().map(&mut grid_node).collect();
+        if nodes.iter().all(|node| !node.junction && node.held == [Support::Free; 2]) {
+            continue;
+        }
         for (d, axis) in AXES.into_iter().enumerate() {
             let held = |i: usize| nodes.get(i).is_some_and(|node| node.held[d] != Support::Free);
             let alone = |i: usize| held(i) && !held(i + 1) && !(i > 0 && held(i - 1));
@@ -81,29 +90,48 @@ fn line_through(nodes: &[GridNode], slaves: &[usize], s: f64) -> Vec<(usize, f64
     vec![(a.node, 1.0 - share), (b.node, share)]
 }
 
-/// A node of the grid with what is around it; nothing where the edges next to it match or leave room.
-fn grid_node(c: &LineMidplane, p: usize, node: usize, s: f64, around: Surroundings) -> GridNode {
-    if fits(c, p, s) {
-        return GridNode { node, s, held: [Support::Free; 2], junction: false };
-    }
-    let (segment, eta) = c.locate(&c.pieces[p], s);
-    let spot = c.spot(segment, eta);
-    let g = &c.segments[segment];
-    let sides = [(&c.a, g.edge_a, spot.xi_a), (&c.b, g.edge_b, spot.xi_b)];
-    let held = [0, 1].map(|d| {
-        let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, around.supports));
-        match (a, b) {
-            (Support::Free, _) | (_, Support::Free) => Support::Free,
-            (Support::Fixed, Support::Fixed) => Support::Fixed,
-            _ => Support::Moved,
+impl GridNode {
+    /// A node on a segment with what is around it; nothing where the edges next to it match or leave room.
+    fn new(
+        c: &LineMidplane,
+        p: usize,
+        segment: usize,
+        node: usize,
+        s: f64,
+        around: Surroundings,
+    ) -> GridNode {
+        let g = &c.segments[segment];
+        let near =
+            |chain: &Chain, edge: usize| chain.edge(edge).any(|place| acts_at(around, chain.nodes[place]));
+        if !near(&c.a, g.edge_a) && !near(&c.b, g.edge_b) {
+            return GridNode { node, s, held: [Support::Free; 2], junction: false };
         }
-    });
-    let meets = |place: usize, chain: &Chain| around.junctions.get(chain.nodes[place]) == Some(&true);
-    let junction = sides.iter().any(|(chain, edge, xi)| {
-        let [start, end] = chain.ends[*edge];
-        on_node(*xi, -1.0) && meets(start, chain) || on_node(*xi, 1.0) && meets(end, chain)
-    });
-    GridNode { node, s, held, junction }
+        let spot = c.spot(segment, 2.0 * (s - g.start) / (g.end - g.start) - 1.0);
+        let sides = [(&c.a, g.edge_a, spot.xi_a), (&c.b, g.edge_b, spot.xi_b)];
+        let held = [0, 1].map(|d| {
+            let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, around.supports));
+            match (a, b) {
+                (Support::Free, _) | (_, Support::Free) => Support::Free,
+                (Support::Fixed, Support::Fixed) => Support::Fixed,
+                _ => Support::Moved,
+            }
+        });
+        let meets = |place: usize, chain: &Chain| around.junctions.get(chain.nodes[place]) == Some(&true);
+        let junction = sides.iter().any(|(chain, edge, xi)| {
+            let [start, end] = chain.ends[*edge];
+            on_node(*xi, -1.0) && meets(start, chain) || on_node(*xi, 1.0) && meets(end, chain)
+        });
+        if (junction || held != [Support::Free; 2]) && fits(c, p, segment, s) {
+            return GridNode { node, s, held: [Support::Free; 2], junction: false };
+        }
+        GridNode { node, s, held, junction }
+    }
+}
+
+/// True if a node is held in some direction or is a junction.
+fn acts_at(around: Surroundings, node: usize) -> bool {
+    let held = |dof: usize| around.supports.get(dof).is_some_and(|support| *support != Support::Free);
+    around.junctions.get(node) == Some(&true) || held(2 * node) || held(2 * node + 1)
 }
 
 fn on_node(xi: f64, end: f64) -> bool {
@@ -131,10 +159,11 @@ fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) 
 }
 
 /// True if the edges of both sides next to a place are the same, or those of one side so short that they can follow the other.
-fn fits(c: &LineMidplane, p: usize, s: f64) -> bool {
+fn fits(c: &LineMidplane, p: usize, segment: usize, s: f64) -> bool {
     let whole = |xi: [f64; 2]| xi == [-1.0, 1.0];
-    let segments = &c.segments[c.pieces[p].segments.clone()];
-    let near = || segments.iter().filter(|g| g.start == s || g.end == s);
+    let piece = &c.pieces[p].segments;
+    let range = segment.saturating_sub(1).max(piece.start)..(segment + 2).min(piece.end);
+    let near = || c.segments[range.clone()].iter().filter(|g| g.start == s || g.end == s);
     let roomy = |g: &Segment| {
         let (a, b) = (c.a.chord(g.edge_a), c.b.chord(g.edge_b));
         a.max(b) >= ROOM * a.min(b)
