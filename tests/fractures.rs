@@ -278,3 +278,31 @@ fn a_network_of_thirty_fractures_slides() {
     assert!(problem.model.interfaces.len() > 40 && slides > 50 && totals.energy_balance < 1e-2);
     assert!(totals.imbalance < 1e-8, "{}", totals.imbalance);
 }
+
+#[test]
+fn a_fracture_of_one_edge_inside_is_refused_and_a_point_on_one_shares_its_force() {
+    for shape in [Shape::Triangle3, Shape::Quadrilateral8] {
+        let one = square(shape, 4, |[x, y]| (y - 0.5).abs() < 1e-9 && (0.2..0.8).contains(&x) && x < 0.6);
+        let message =
+            bind(&one_body(SPRINGS, r#""within": "rock.crack""#), vec![one]).unwrap_err().to_string();
+        assert!(message.contains("is one edge long and ends inside its body"), "{message}");
+    }
+    // a force of 6 at the mouth of a fracture, which is two nodes then: reactions carry 6
+    let mut mesh = square(Shape::Quadrilateral4, 4, |[x, y]| (y - 0.5).abs() < 1e-9 && x < 0.6);
+    let mouth = mesh.points.iter().position(|x| x[0] == 0.0 && (x[1] - 0.5).abs() < 1e-9).unwrap();
+    mesh.groups.insert("mouth".into(), Group::Points(vec![mouth]));
+    let text = one_body(SPRINGS, r#""within": "rock.crack""#)
+        .replace(r#""rock.top": { "traction": ["0.5+x", "2-3*x"] }"#, r#""rock.mouth": { "force": [6, 0] }"#);
+    let problem = bind(&text, vec![mesh]).unwrap();
+    let (states, _) = solve(&problem);
+    let reaction: f64 = states[0].reactions.iter().step_by(2).sum();
+    close(reaction, -6.0, 1e-12, 6.0, "reaction");
+    // s would run along one face and back along the other
+    let message = bind(
+        &one_body(SPRINGS, r#""within": "rock.crack""#)
+            .replace("rock.top", "rock.crack")
+            .replace("0.5+x", "s"),
+        vec![square(Shape::Quadrilateral4, 4, |[x, y]| (y - 0.5).abs() < 1e-9 && x < 0.6)],
+    );
+    assert!(message.unwrap_err().to_string().contains("its two faces meet at (0, 0.5)"));
+}

@@ -14,7 +14,9 @@ use std::collections::{BTreeMap, HashMap};
 use super::edges::{each_edge, facet};
 use super::{Facet, Group, Mesh};
 
-/// EdgeEnds of an edge, ascending.
+/// Coordinates that differ by less are the same to the order of nodes. Of the largest.
+const TOGETHER: f64 = 1e-9;
+/// Ends of an edge, ascending.
 type EdgeEnds = [usize; 2];
 /// New numbers by cell and node.
 type Numbers = HashMap<(usize, usize), usize>;
@@ -169,14 +171,10 @@ fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, V
         at.entry(a).or_default().push(b);
         at.entry(b).or_default().push(a);
     }
-    let order = |a: &usize, b: &usize| {
-        points[*a]
-            .iter()
-            .zip(&points[*b])
-            .map(|(a, b)| a.total_cmp(b))
-            .find(|o| o.is_ne())
-            .unwrap_or(a.cmp(b))
-    };
+    // the order of equal places is no accident
+    let size = at.keys().flat_map(|&node| points[node]).fold(f64::MIN_POSITIVE, |size, x| size.max(x.abs()));
+    let rounded = |node: usize| points[node].map(|x| (x / (TOGETHER * size)).round() as i64);
+    let order = |a: &usize, b: &usize| rounded(*a).cmp(&rounded(*b)).then(a.cmp(b));
     let curve = |a: usize, b: usize| owner[&ends(&[a, b])];
     let goes_on = |node: usize| matches!(at[&node][..], [a, b] if curve(node, a) == curve(node, b));
     let mut nodes: Vec<usize> = at.keys().copied().collect();

@@ -29,6 +29,9 @@ pub(super) fn fractions(points: &[[f64; 3]], edges: &[Facet]) -> Result<Vec<[f64
         [] => return Err("the curve is a closed loop".into()),
         [a, b] => {
             let extent = (0..2).map(|d| (points[*a][d] - points[*b][d]).abs()).fold(0.0, f64::max);
+            if points[*a] == points[*b] {
+                return Err(format!("its two faces meet at {}", place(*a)));
+            }
             let same_x = (points[*a][0] - points[*b][0]).abs() <= SAME * extent;
             let d = usize::from(same_x);
             if points[*a][d] <= points[*b][d] { *a } else { *b }

@@ -152,7 +152,10 @@ impl BoundLoad {
             LoadTarget::Points { subdomain, points } => {
                 let subdomain = &model.subdomains[*subdomain];
                 for &point in points {
-                    scatter(subdomain.first_node + point, at(in_plane(subdomain.mesh.points[point]), 0.0)?);
+                    // the copies of a point on an opened curve share its force
+                    let x = subdomain.mesh.points[point];
+                    let copies = points.iter().filter(|&&other| subdomain.mesh.points[other] == x).count();
+                    scatter(subdomain.first_node + point, at(in_plane(x), 0.0)?.map(|f| f / copies as f64));
                 }
             }
             LoadTarget::BoundSubdomain { subdomain, factor } => {

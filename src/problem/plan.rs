@@ -8,17 +8,19 @@ use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::Scene;
 
-/// Nodes at which interfaces of more than two bodies meet.
+/// Nodes at which interfaces of more than two bodies meet, or a fracture within a body another interface.
 pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> {
     if plans.len() < 2 {
         return Vec::new();
     }
     let mut bodies: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut within: HashMap<usize, [bool; 2]> = HashMap::new(); // on an opened curve, and on another interface
     for plan in plans {
         let pair: Vec<usize> = plan.sides.iter().flatten().map(|curve| curve.subdomain).collect();
         for curve in plan.sides.iter().flatten() {
             let first = model.subdomains[curve.subdomain].first_node;
             for node in curve.edges.iter().flat_map(|edge| edge.nodes()) {
+                within.entry(first + node).or_default()[usize::from(plan.stated.within.is_none())] = true;
                 let met = bodies.entry(first + node).or_default();
                 met.extend(pair.iter().filter(|body| !met.contains(body)).copied().collect::<Vec<_>>());
             }
@@ -26,6 +28,8 @@ pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> 
     }
     let mut found = vec![false; model.nodes()];
     bodies.iter().filter(|(_, met)| met.len() > 2).for_each(|(&node, _)| found[node] = true);
+    // where a fracture reaches another interface, three parts meet though two of them are of one body
+    within.iter().filter(|(_, both)| **both == [true; 2]).for_each(|(&node, _)| found[node] = true);
     found
 }
 

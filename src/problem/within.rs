@@ -33,9 +33,9 @@ pub(super) fn open<'a>(scene: &'a Scene, model: &mut Model) -> Result<Vec<Planne
         }
     }
     let mut plans = Vec::new();
-    for b in 0..model.subdomains.len() {
+    for body in 0..model.subdomains.len() {
         // curves of one entry are one network
-        let own: Vec<&(&str, Curve)> = curves.iter().filter(|(_, curve)| curve.subdomain == b).collect();
+        let own: Vec<&(&str, Curve)> = curves.iter().filter(|(_, curve)| curve.subdomain == body).collect();
         let mut entries: Vec<&str> = own.iter().map(|(entry, _)| *entry).collect();
         entries.dedup();
         let edges = |entry: &&str| -> Vec<Facet> {
@@ -45,10 +45,20 @@ pub(super) fn open<'a>(scene: &'a Scene, model: &mut Model) -> Result<Vec<Planne
             continue;
         }
         let networks: Vec<Vec<Facet>> = entries.iter().map(edges).collect();
-        for Branch { curve, faces } in model.subdomains[b].mesh.open(&networks) {
+        for Branch { curve, faces } in model.subdomains[body].mesh.open(&networks) {
             let Some((entry, stated)) = scene.interfaces.get_key_value(entries[curve]) else { continue };
+            if let [[a], [b]] = faces.each_ref().map(Vec::as_slice)
+                && shares_ends(a, b)
+            {
+                let [x, y, _] = model.subdomains[body].mesh.points[a.nodes()[0]];
+                let what = format!(
+                    "a fracture at ({x}, {y}) is one edge long and ends inside its body: nothing opens"
+                );
+                let help = "mesh it finer, so that it has at least two edges";
+                return Err(scene.source.error_at(&["interfaces", entry, "within"], what, help));
+            }
             let label = stated.within.as_ref().map_or(String::new(), |names| names.names().join(", "));
-            let [a, b] = faces.map(|edges| vec![Curve { subdomain: b, name: label.clone(), edges }]);
+            let [a, b] = faces.map(|edges| vec![Curve { subdomain: body, name: label.clone(), edges }]);
             plans.push(PlannedInterface { name: String::new(), entry, stated, sides: [a, b] });
         }
     }
@@ -64,6 +74,11 @@ pub(super) fn open<'a>(scene: &'a Scene, model: &mut Model) -> Result<Vec<Planne
         plans[i].name = if alone { entry.to_string() } else { format!("{entry}{JOINED}{number}") };
     }
     Ok(plans)
+}
+
+/// True if two edges have both ends in common.
+fn shares_ends(a: &Facet, b: &Facet) -> bool {
+    a.nodes()[..2].iter().all(|node| b.nodes()[..2].contains(node))
 }
 
 /// True if two curves of one body hold the same edge.
