@@ -112,23 +112,10 @@ def coupling(program, scene, meshes):
     return j, np.repeat(run.joint()["length"].ravel(), 2)
 
 
-def without_ends(j, weights):
-    """Tangential jumps at the law points of a linear grid, two Gauss points to a cell, projected on those that vanish at both
-    ends of the joint: planes of symmetry."""
-    ends = np.zeros((2, len(j)))
-    near, far = (1 + np.sqrt(3)) / 2, (1 - np.sqrt(3)) / 2  # the line through both points of a cell at its end
-    ends[0, :2], ends[1, -2:] = (near, far), (far, near)
-    u, singular, _ = np.linalg.svd(j, full_matrices=False)
-    q = u[:, singular > 1e-10 * singular[0]]
-    value = q @ np.linalg.solve(q.T @ (weights[:, None] * q), q.T @ ends.T)
-    return j - value @ np.linalg.solve(ends @ value, ends @ j)
-
-
 class Precise:
-    """A scene of two bodies joined by springs of one stiffness in both directions; `still`: both ends of the joint lie on planes
-    of symmetry."""
+    """A scene of two bodies joined by springs of one stiffness in both directions."""
 
-    def __init__(self, program, scene, meshes, materials, force, held, still=False):
+    def __init__(self, program, scene, meshes, materials, force, held):
         self.meshes = meshes
         blocks = [stiffness(meshes[body], *materials[body]) for body in meshes]
         n = sum(len(block) for block in blocks)
@@ -139,8 +126,6 @@ class Precise:
             first += len(block)
         self.force, self.free = force, np.flatnonzero(~held)
         j, weights = coupling(program, scene, meshes)
-        if still:
-            j[1::2] = without_ends(j[1::2], weights[1::2])
         u, singular, _ = np.linalg.svd(j, full_matrices=False)
         self.q = u[:, singular > 1e-10 * singular[0]].astype(WIDE)
         # orthonormal to the last bit of the wide numbers

@@ -64,7 +64,6 @@ def references(t, coupling):
         {"a": (1e4, 0.2), "b": (4e3, 0.3)},
         force,
         held(meshes, {**sides, ("a", "bottom"): [0, 1]}),
-        still=coupling == "projected",
     )
     yield "case 9, T3 8:12", 4e3 * 8, lambda k: Strip(kn=k, kt=k).scene(coupling=coupling), meshes, precise
     text, meshes = case_3()

@@ -49,10 +49,8 @@ pub enum Support {
     /// Free throughout.
     #[default]
     Free,
-    /// Fixed from the first step to the last.
-    Fixed,
     /// Fixed, driven or held where it is in some step.
-    Moved,
+    Held,
 }
 
 /// What an interface has around it, beyond its two sides: it says which ends of the grid can't carry a jump of their own.

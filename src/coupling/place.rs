@@ -75,7 +75,7 @@ pub struct Slaved {
     pub node: usize,
     /// Its component, in x, y.
     pub component: usize,
-    /// Nodes that it follows, with their weights; none where it is zero.
+    /// Nodes that it follows, with their weights.
     pub from: Vec<(usize, f64)>,
 }
 

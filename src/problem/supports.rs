@@ -58,12 +58,9 @@ pub(super) fn over_all_steps(scene: &Scene, model: &Model) -> Result<Vec<Support
     for Duty { step, key, group, direction } in duties(scene) {
         let path = ["steps", &step.to_string(), key, group];
         for dof in dofs(scene, model, &path, group, direction)? {
-            all[dof] = match (all[dof], key) {
-                (Support::Free, "fix") if step == 0 => Support::Fixed,
-                (Support::Fixed, "fix") => Support::Fixed,
-                (Support::Free, "release") => Support::Free,
-                _ => Support::Moved,
-            };
+            if key != "release" {
+                all[dof] = Support::Held;
+            }
         }
     }
     Ok(all)

@@ -6,8 +6,9 @@
 //! ```
 //!
 //! The same holds where more than two bodies meet: the jumps around the point sum to zero. Such a component is no unknown. It
-//! follows the two nearest nodes that are kept, linearly; at a plane of symmetry, where only the direction along C is fixed for
-//! good, it is zero, as is the shear; where that direction is driven it is kept. Kept are nodes where first edges match (the classical element), nodes next to others that
+//! follows the two nearest nodes that are kept, linearly, so that a constant jump and the resultant of the traction stay exact.
+//! Where only the direction along C is held, as at a plane of symmetry, it is kept: zero there would be nearer to the shear of the
+//! field, but tractions would no longer sum to the forces. Kept are nodes where first edges match (the classical element), nodes next to others that
 //! are held alike, all where fewer than two would remain, and all of a linear grid on quadratic sides, which leave it room. What
 //! is held in any step is held here, so that the grid is one for the whole history.
 
@@ -65,14 +66,13 @@ pub(super) fn slaved(c: &LineMidplane, grid: &MidplaneGrid, around: Surroundings
                 let [_, tangent] = c.spot(segment, eta).rotation;
                 nodes[i].held[1 - d] == Support::Free && dot(tangent, axis).abs() >= 1.0 - ALONG
             };
-            let is_zero = |i: usize| !nodes[i].junction && nodes[i].held[d] == Support::Fixed && along(i);
-            let follows = |i: usize| ends(i) && nodes[i].junction || alone(i) && (is_zero(i) || !along(i));
+            let follows = |i: usize| ends(i) && nodes[i].junction || alone(i) && !along(i);
             let slaves: Vec<usize> = (0..nodes.len()).filter(|&i| follows(i)).collect();
             if piece.closed || nodes.len() < slaves.len() + 2 {
                 continue;
             }
             found.extend(slaves.iter().map(|&i| {
-                let from = if is_zero(i) { Vec::new() } else { line_through(&nodes, &slaves, nodes[i].s) };
+                let from = line_through(&nodes, &slaves, nodes[i].s);
                 Slaved { node: nodes[i].node, component: d, from }
             }));
         }
@@ -110,11 +110,7 @@ impl GridNode {
         let sides = [(&c.a, g.edge_a, spot.xi_a), (&c.b, g.edge_b, spot.xi_b)];
         let held = [0, 1].map(|d| {
             let [a, b] = sides.map(|(chain, edge, xi)| on_side(chain, edge, xi, d, around.supports));
-            match (a, b) {
-                (Support::Free, _) | (_, Support::Free) => Support::Free,
-                (Support::Fixed, Support::Fixed) => Support::Fixed,
-                _ => Support::Moved,
-            }
+            if a == b { a } else { Support::Free }
         });
         let meets = |place: usize, chain: &Chain| around.junctions.get(chain.nodes[place]) == Some(&true);
         let junction = sides.iter().any(|(chain, edge, xi)| {
@@ -148,14 +144,8 @@ fn on_side(chain: &Chain, edge: usize, xi: f64, d: usize, supports: &[Support]) 
     if on_node(xi, 1.0) {
         return end;
     }
-    let all: Vec<Support> = chain.edge(edge).map(of).collect();
-    if all.contains(&Support::Free) {
-        Support::Free
-    } else if all.contains(&Support::Moved) {
-        Support::Moved
-    } else {
-        Support::Fixed
-    }
+    let free = chain.edge(edge).map(of).any(|support| support == Support::Free);
+    if free { Support::Free } else { Support::Held }
 }
 
 /// True if the edges of both sides next to a place are the same, or those of one side so short that they can follow the other.
