@@ -118,7 +118,7 @@ fn a_line_through_the_body_is_the_same_as_two_bodies() {
         }
         let tractions = |problem: &Problem| solve(problem).0.remove(0).snapshot.tractions.remove(0);
         for (t, exact) in tractions(&one).iter().zip(&tractions(&two)) {
-            (0..2).for_each(|d| close(t[d], exact[d], 1e-11, 3.0, "traction"));
+            (0..2).for_each(|d| close(t[d], exact[d], 1e-12, 3.0, "traction"));
         }
     }
 }

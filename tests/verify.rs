@@ -294,7 +294,7 @@ fn case_5b_strip_under_harmonic_pressure() {
     let mut table = Table::new(
         "case05b",
         "Case 5b: two-layer strip under a harmonic pressure, `projected`",
-        "Relative error of the energy and of t_n at the law points (L2) over three halvings, rate of the energy over the last one, mean rate of t_n. Edges A:B 8:12 … 64:96 \
+        "Relative error of the energy and of t_n at the law points (L2) over three halvings, rate of the energy over the last two, mean rate of t_n. Edges A:B 8:12 … 64:96 \
          (T3, Q4) and 4:6 … 32:48 (T6, Q8), as many rows; graded: the last edge is 4 times the first.",
         &["element", "edges A:B", "K_N H/E", "energy", "rate", "t_n", "rate"],
     );
@@ -308,7 +308,7 @@ fn case_5b_strip_under_harmonic_pressure() {
         for mesh in ["2:3", "graded 2:3"] {
             for stiffness in [1.0, 1e4, 1e8] {
                 let [energy, traction] = halvings(shape, mesh, stiffness * 1e4 / 0.8, "projected");
-                let rates = [rate(&energy[2..]), rate(&traction)];
+                let rates = [rate(&energy[1..]), rate(&traction)];
                 table.row(&[
                     shape.label().into(),
                     mesh.into(),

@@ -53,7 +53,7 @@ pub enum Support {
     Held,
 }
 
-/// What an interface has around it, beyond its two sides: it says which ends of the grid can't carry a jump of their own.
+/// Surroundings of an interface, which decide the ends of the grid that carry no jump of their own.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Surroundings<'a> {
     /// Support of every dof of the model; none if nothing is held.

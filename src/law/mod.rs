@@ -85,7 +85,7 @@ impl Law {
         [kn, kt, kt]
     }
 
-    /// What the law knows of a point beyond jump and traction.
+    /// Variables of the law at a point, beyond jump and traction.
     pub fn variables(&self) -> &'static [LawVariable] {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => &[],

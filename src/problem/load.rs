@@ -1,11 +1,13 @@
 //! A load bound to what it acts on: nodal forces at any load factor.
 
+use std::collections::HashMap;
+
 use super::quantity::Quantity;
 use super::{along, groups};
 use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
-use crate::mesh::Facet;
+use crate::mesh::{Facet, Mesh};
 use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
 use crate::shape::Ends;
 use crate::shape::vector::{in_plane, plus};
@@ -23,8 +25,8 @@ pub(super) struct BoundLoad {
 enum LoadTarget {
     /// Edges of a body; s at the ends of every edge if a formula asks for it.
     Edges { subdomain: usize, edges: Vec<Facet>, s: Option<Vec<Ends>>, pressure: bool },
-    /// Points of a body.
-    Points { subdomain: usize, points: Vec<usize> },
+    /// Points of a body, and the share of the force that each takes: copies of a point on an opened curve divide it.
+    Points { subdomain: usize, points: Vec<(usize, f64)> },
     /// A whole body: force per volume times a factor.
     BoundSubdomain { subdomain: usize, factor: f64 },
 }
@@ -50,7 +52,8 @@ impl BoundLoad {
             Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
             Load::Force(values) => {
                 let (subdomain, points) = groups::points(scene, model, &path, name)?;
-                let target = LoadTarget::Points { subdomain, points: points.to_vec() };
+                let mesh = &model.subdomains[subdomain].mesh;
+                let target = LoadTarget::Points { subdomain, points: shares(mesh, points) };
                 return Ok(BoundLoad { target, values: both("force", values) });
             }
         };
@@ -151,11 +154,9 @@ impl BoundLoad {
             }
             LoadTarget::Points { subdomain, points } => {
                 let subdomain = &model.subdomains[*subdomain];
-                for &point in points {
-                    // the copies of a point on an opened curve share its force
-                    let x = subdomain.mesh.points[point];
-                    let copies = points.iter().filter(|&&other| subdomain.mesh.points[other] == x).count();
-                    scatter(subdomain.first_node + point, at(in_plane(x), 0.0)?.map(|f| f / copies as f64));
+                for &(point, share) in points {
+                    let force = at(in_plane(subdomain.mesh.points[point]), 0.0)?;
+                    scatter(subdomain.first_node + point, force.map(|f| share * f));
                 }
             }
             LoadTarget::BoundSubdomain { subdomain, factor } => {
@@ -186,4 +187,12 @@ impl BoundLoad {
         }
         Ok(())
     }
+}
+
+/// Points with one over the number of those at the same place.
+fn shares(mesh: &Mesh, points: &[usize]) -> Vec<(usize, f64)> {
+    let place = |point: usize| mesh.points[point].map(f64::to_bits);
+    let mut copies: HashMap<[u64; 3], usize> = HashMap::new();
+    points.iter().for_each(|&point| *copies.entry(place(point)).or_default() += 1);
+    points.iter().map(|&point| (point, 1.0 / copies[&place(point)] as f64)).collect()
 }

@@ -7,10 +7,14 @@
 //!
 //! The same holds where more than two bodies meet: the jumps around the point sum to zero. Such a component is no unknown. It
 //! follows the two nearest nodes that are kept, linearly, so that a constant jump and the resultant of the traction stay exact.
-//! Where only the direction along C is held, as at a plane of symmetry, it is kept: zero there would be nearer to the shear of the
-//! field, but tractions would no longer sum to the forces. Kept are nodes where first edges match (the classical element), nodes next to others that
-//! are held alike, all where fewer than two would remain, and all of a linear grid on quadratic sides, which leave it room. What
-//! is held in any step is held here, so that the grid is one for the whole history.
+//!
+//! ```text
+//! kept      ends held along C only, as at a plane of symmetry (zero there is nearer to the shear of the field, but tractions
+//!           no longer sum to the forces); ends whose first edges match (the classical element) or are much shorter on one
+//!           side; runs of held nodes; all nodes where fewer than two remain, and of a linear grid on quadratic sides
+//! ```
+//!
+//! Supports of all steps count, so that the grid is one for the whole history.
 
 use super::super::place::Slaved;
 use super::super::{Support, Surroundings};
@@ -31,7 +35,7 @@ const AXES: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 struct GridNode {
     node: usize,
     s: f64,
-    /// How both sides are held together, by direction.
+    /// Support that both sides have there, by direction.
     held: [Support; 2],
     /// More than two bodies meet there.
     junction: bool,
