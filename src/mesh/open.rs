@@ -9,7 +9,7 @@
 //!   └────────┴────────┘        └────────┴────────┘
 //! ```
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::edges::{each_edge, facet};
 use super::{Facet, Group, Mesh};
@@ -171,7 +171,7 @@ fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, V
         at.entry(a).or_default().push(b);
         at.entry(b).or_default().push(a);
     }
-    // the order of equal places is no accident
+    // places equal but for rounding are ordered by their next coordinate, then by number
     let size = at.keys().flat_map(|&node| points[node]).fold(f64::MIN_POSITIVE, |size, x| size.max(x.abs()));
     let rounded = |node: usize| points[node].map(|x| (x / (TOGETHER * size)).round() as i64);
     let order = |a: &usize, b: &usize| rounded(*a).cmp(&rounded(*b)).then(a.cmp(b));
@@ -179,7 +179,7 @@ fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, V
     let goes_on = |node: usize| matches!(at[&node][..], [a, b] if curve(node, a) == curve(node, b));
     let mut nodes: Vec<usize> = at.keys().copied().collect();
     nodes.sort_by(order);
-    let mut used: BTreeMap<EdgeEnds, ()> = BTreeMap::new();
+    let mut used: BTreeSet<EdgeEnds> = BTreeSet::new();
     let mut found = Vec::new();
     // from ends, crossings and other curves first, then loops
     let starts = nodes.iter().filter(|&&node| !goes_on(node)).chain(&nodes);
@@ -189,7 +189,7 @@ fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, V
         for second in next {
             let mut way = vec![start];
             let mut step = second;
-            while used.insert(ends(&[way[way.len() - 1], step]), ()).is_none() {
+            while used.insert(ends(&[way[way.len() - 1], step])) {
                 way.push(step);
                 let before = way[way.len() - 2];
                 match at[&step].iter().find(|&&other| other != before) {
