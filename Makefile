@@ -117,7 +117,7 @@ identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `b
 	$(PYTHON) tests/identical.py $(TARGET)/before/target/release/midplane $(MIDPLANE)
 
 confinement: | tools  ## the long tests: boxes at every confinement on fine meshes, and 200 random ones, some minutes
-	cargo test --release --locked --test confinement -- --ignored --nocapture
+	cargo test --release --locked --test tests confinement:: -- --ignored --nocapture
 
 BENCHED := results/bench/scenes.csv $(wildcard results/bench/peers*.csv)
 
@@ -187,7 +187,7 @@ trade-docs: $(VENV)  ## put what `make trade` has measured into docs/trade/ and 
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
-	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test example1 --test patch --test round --test verify
+	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test tests -- example1:: patch:: round:: verify::
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
 	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
 

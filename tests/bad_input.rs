@@ -1,12 +1,9 @@
 //! Claim: bad input gives one clear error that names file, line or key and what would have been right; the exit code is
 //! 2 and nothing is written.
 
-#[path = "common/squares.rs"]
-mod squares;
-
 use std::path::Path;
 
-use squares::{SCENE, assert_shortened, changed, midplane, structured, write};
+use crate::common::squares::{SCENE, assert_shortened, changed, midplane, structured, write};
 
 /// A scene folder with the two squares on each other; the file `name` has `from` replaced by `to`.
 fn scene(folder: &Path, name: &str, from: &str, to: &str) {

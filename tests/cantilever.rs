@@ -9,9 +9,7 @@
 //!
 //! Beam theory: τ = 1.5 V/A = −1.5 MPa and t_n = 0 on the mid-line, away from the ends (0.6 < x < 1.4).
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::shape::Shape;
 
 /// RMS of t_n over 1.5 MPa on 0.6 < x < 1.4, mean of t_t there, and the mean end deflection.

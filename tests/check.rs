@@ -1,13 +1,9 @@
 //! Claim: `midplane check` says of every interface what it is, warns of what spoils it, and `--plot` writes it to look at.
 
-mod common;
-#[path = "common/squares.rs"]
-mod squares;
-
-use common::{bind, even, rectangle};
+use crate::common::squares::{SCENE, midplane, structured, write};
+use crate::common::{bind, even, rectangle};
 use midplane::error::Code;
 use midplane::shape::Shape;
-use squares::{SCENE, midplane, structured, write};
 use tempfile::TempDir;
 
 /// A scene folder with three edges against five.

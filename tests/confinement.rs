@@ -3,14 +3,9 @@
 //!
 //! The limits are those of an independent program with its own Newton's method, dual in its unknowns.
 
-#[path = "common/boxes.rs"]
-mod boxes;
-mod common;
-mod law_help;
-
-use boxes::*;
-use common::*;
-use law_help::Random;
+use crate::common::boxes::*;
+use crate::common::*;
+use crate::law_help::Random;
 
 /// What a run gave.
 struct Run {

@@ -11,9 +11,7 @@
 //!     0        24     48
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::shape::Shape;
 
 #[test]

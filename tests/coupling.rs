@@ -1,8 +1,6 @@
 //! Properties of the coupling of two straight sides.
 
-mod common;
-
-use common::{even, graded};
+use crate::common::{even, graded};
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Surroundings};
 use midplane::mesh::Facet;
 use midplane::shape::vector::{in_plane, in_space};

@@ -1,12 +1,8 @@
 //! Properties of the coupling on straight, curved, kinked, graded and closed sides.
 
-#[path = "common/chains.rs"]
-mod chains;
-mod common;
-
 use std::f64::consts::PI;
 
-use chains::*;
+use crate::common::chains::*;
 use midplane::coupling::Coupling;
 use midplane::shape::vector::in_plane;
 use proptest::prelude::*;

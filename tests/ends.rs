@@ -3,11 +3,8 @@
 //!
 //! The cantilever of tests/cantilever.rs next to its clamp, x < 0.3 m: two first edges of different length have hats that no jump of
 //! the grid can make equal, so the end of the grid follows its neighbours there.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::law::Local;
 use midplane::shape::Shape;
 

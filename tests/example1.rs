@@ -12,13 +12,9 @@
 //! σ_yy = −p everywhere, t_n = −p, t_t = 0. Plane strain: ε_y = −p(1 − ν²)/E, ε_x = p ν(1 + ν)/E;
 //! u_top = −p (1 − ν²)/E (h₁ + h₂) − p/K_N.
 
-mod common;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::table::Table;
+use crate::common::*;
 use midplane::shape::Shape;
-use table::Table;
 
 const P: f64 = 10.0;
 const E: f64 = 1e4;

@@ -6,9 +6,7 @@
 //! by the scene. τ at the peak and after 1 mm from the closed form: du = dW / (τ − |σ| t₀) behind the peak
 //! √((c₀ − σ t₀)² − (c₀ − χ₀ t₀)²).
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::law::{Integration, Law, Local, State as LawState};
 use midplane::shape::Shape;
 

@@ -1,8 +1,6 @@
 //! Numbers of a scene as formulas: resultants, histories, s along groups.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::error::Result;
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;

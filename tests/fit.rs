@@ -7,11 +7,9 @@
 //! disc    p = p₀ √(1 − x²/b²),  b² = 4 F R/(π E*),  p₀ = 2 F/(π b),  E* = E/(2 (1 − ν²))
 //! ```
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use common::*;
+use crate::common::*;
 use midplane::history::ModelState;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;

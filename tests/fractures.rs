@@ -6,11 +6,8 @@
 //!   │  ╱  ────╳──  │
 //!   └──────────────┘
 //! ```
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::mesh::{Facet, Gmsh, Group, Job, Mesh, mesh_all, read};
 use midplane::problem::Problem;
 use midplane::shape::Shape;

@@ -1,9 +1,7 @@
 //! Claim: Coulomb friction on a mesh agrees with its closed forms: a uniform block in cycles, a rigid block pushed above
 //! its base, a bar pulled over a frictional base, and what cannot be held is not.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::error::Error;
 use midplane::history::ModelState;
 use midplane::mesh::Mesh;

@@ -9,9 +9,7 @@
 //!     └───a───┘
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::shape::Shape;
 
 const E: f64 = 1e4;

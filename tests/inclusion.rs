@@ -1,15 +1,11 @@
 //! Claim: `between` finds the closed curve along which two parts of one mesh touch, and joins it: held as a plate in a
 //! linear displacement field, inclusion and plate follow it as if they were one, up to what the stiff interface gives.
 
-mod common;
-#[path = "common/round.rs"]
-mod round;
-
 use std::f64::consts::PI;
 
-use common::*;
+use crate::common::round::ring;
+use crate::common::*;
 use midplane::shape::Shape;
-use round::ring;
 
 #[test]
 fn two_surfaces_of_one_mesh_are_joined_along_a_circle() {

@@ -5,9 +5,7 @@
 //! ├──┤ab├──┤bc├──┤cd├──┤ → u       C = Σ L/E + Σ 1/K_N         u(σ) = σ C + (G_I/χ) ln(χ/σ),  χ the least strength
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 

@@ -1,16 +1,11 @@
 //! Geometry at its extremes: what is joined exactly, and what is refused with the reason. Each test names its row.
 
-#[path = "common/chains.rs"]
-mod chains;
-mod common;
-#[path = "common/round.rs"]
-mod round;
-
+use crate::common::round;
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use chains::*;
-use common::*;
+use crate::common::chains::*;
+use crate::common::*;
 use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme};
 use midplane::history::ModelState;
 use midplane::mesh::Mesh;

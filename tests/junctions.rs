@@ -9,9 +9,7 @@
 //!   └──── sw ────┴──── se ────┘     u = ε x + i d_v + j d_h   (column i, row j)
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;

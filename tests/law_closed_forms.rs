@@ -10,11 +10,8 @@
 //! one Euler step      W = (W_n + χ₀u^p)/(1 + χ₀u^p/G_I)
 //! σ held at 0         u_t^p = ∫ dW/√(χt(2c−χt)),  τ = 0 at W = G_I
 //! ```
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::{EXAMPLE_2, Reference, close};
+use crate::law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{ComponentControl, Controlled, LawPath, PathRow, PathSegment, drive};
 use midplane::law::{Cracking, Integration, Law, Local, State, WORK};
 

@@ -6,11 +6,8 @@
 //! with dilatancy at fixed opening  |Δr_t^p| = (|τ_trial| + μ σ_trial − c)/(K_T + μ K_N tanψ)
 //! a slip dissipates |Δr_t^p| (c − (μ − tanψ) (σ_a + σ_b)/2), faces that part under τ release τ²/(2 K_T)
 //! ```
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::close;
+use crate::law_help::close;
 use midplane::law::{Coulomb, Elastic, Integration, Law, Local, LocalMatrix, Response, State, local};
 
 const STEPPING: Integration = Integration::Tolerance(1e-4);

@@ -10,11 +10,8 @@
 //!
 //! Random laws, states and ways from a fixed seed; starts touching, on the surface, open, sticking; ways along an axis
 //! too. Every sequence of events is counted, so that none is left out.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::Random;
+use crate::law_help::Random;
 use midplane::law::{Coulomb, Integration, Law, Local, N, Response, State, T};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;

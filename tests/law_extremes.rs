@@ -2,11 +2,8 @@
 //!
 //! Friction from none to a great deal, no strength at all, vertex outside, energies too small and too large, energies
 //! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::{EXAMPLE_2, Random, close};
+use crate::law_help::{EXAMPLE_2, Random, close};
 use midplane::law::{Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, State, WORK};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {

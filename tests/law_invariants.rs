@@ -2,11 +2,8 @@
 //!
 //! A million random steps of random laws, small and enormous: F ≤ 0 to rounding, σ ≤ χ, W and the dissipation never
 //! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::Random;
+use crate::law_help::Random;
 use midplane::law::{Cracking, Integration, Law, Local, Response, State, WORK};
 
 /// Of the strength or the traction.

@@ -1,9 +1,6 @@
 //! Claim: a point can be driven by jump or by traction in either component, and says so when it cannot.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::{EXAMPLE_2, Reference, close};
+use crate::law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{LawPath, PathError, PathRow, columns, drive, write_csv};
 use midplane::law::{Coulomb, Elastic, Integration, Law, Local, State};
 

@@ -3,11 +3,8 @@
 //! The curves (tests/reference) were integrated to 1e-9 or better by another program with another method. They list
 //! the error that an exact backward Euler solver makes with 10 and with 100 equal steps per stored point: plain backward
 //! Euler must be that good, error control must be as good as its tolerance says.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::{CURVES, Reference};
+use crate::law_help::{CURVES, Reference};
 use midplane::law::Integration;
 use std::time::Instant;
 

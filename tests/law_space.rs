@@ -8,11 +8,8 @@
 //! ```
 //!
 //! with first order in the steps (`coulomb`) or within the tolerance (`cracking`); stiffnesses are derivatives.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::{EXAMPLE_2, Random, close};
+use crate::law_help::{EXAMPLE_2, Random, close};
 use midplane::law::{Coulomb, Cracking, Integration, Law, Local, LocalMatrix, Response, State, WORK};
 use nalgebra::{Rotation3, Unit};
 

@@ -4,11 +4,8 @@
 //! choose its sub-steps anew for every jump, so the lengths found at r are replayed over the stencil. Where the
 //! stencil straddles a change of mode, or W passes an energy, there is no derivative: such stencils betray themselves,
 //! their quotient changes when δ is halved. They are left out and counted.
-#![allow(missing_docs, clippy::unwrap_used)]
 
-mod law_help;
-
-use law_help::Random;
+use crate::law_help::Random;
 use midplane::law::{Cracking, Integration, Law, Local, LocalMatrix, Response, State};
 
 /// Largest difference, relative to the elastic stiffness (or the stiffness itself where it is larger).

@@ -1,8 +1,6 @@
 //! Loads, supports and history on scenes with exact solutions; bodies that nothing holds.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::error::Code;
 use midplane::shape::Shape;
 

@@ -1,8 +1,6 @@
 //! Claim: a run that does not fit in memory is refused before its first factor, with the estimate.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::error::Result;
 use midplane::history::{Clock, Equations, History, Means, memory};
 use midplane::shape::Shape;

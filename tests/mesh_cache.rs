@@ -1,16 +1,11 @@
 //! The cache of meshes: nothing is meshed twice, everything that changes a mesh is noticed, jobs keep their order.
 
-#[path = "common/mesh_text.rs"]
-mod mesh_text;
-#[path = "common/place.rs"]
-mod place;
-
 use std::fs;
 use std::path::Path;
 
-use mesh_text::edges;
+use crate::common::mesh_text::edges;
+use crate::common::place::{BLOCK, Place, impostor, impostor_of};
 use midplane::mesh::{Gmsh, Job, Meshed, mesh_all, read};
-use place::{BLOCK, Place, impostor, impostor_of};
 
 #[test]
 fn only_what_has_changed_is_meshed_again() {

@@ -1,12 +1,9 @@
 //! Damaged meshes: whatever happens to a file, reading it ends in a sound mesh or in one clear error, never in a panic
 //! and never in memory that the file only claims to need.
 
-#[path = "common/mesh_text.rs"]
-mod mesh_text;
-
 use std::path::Path;
 
-use mesh_text::{Form, block, keeps_its_promises, strip};
+use crate::common::mesh_text::{Form, block, keeps_its_promises, strip};
 use midplane::mesh::from_bytes;
 use proptest::prelude::*;
 

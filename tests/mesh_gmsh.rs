@@ -1,20 +1,15 @@
 //! Meshing with the real gmsh: every kind of cell, and all the ways in which gmsh can fail.
 
-#[path = "common/mesh_text.rs"]
-mod mesh_text;
-#[path = "common/place.rs"]
-mod place;
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use mesh_text::{area, close, edges, keeps_its_promises, length};
+use crate::common::mesh_text::{area, close, edges, keeps_its_promises, length};
+use crate::common::place::{BLOCK, Place, impostor};
 use midplane::error::Error;
 use midplane::mesh::{Gmsh, Group, Job, Mesh, is_earlier_format, mesh_all, read};
 use midplane::shape::Shape;
-use place::{BLOCK, Place, impostor};
 
 fn check_block(mesh: &Mesh, quadratic: bool) {
     keeps_its_promises(mesh);

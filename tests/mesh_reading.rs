@@ -1,12 +1,11 @@
 //! Reading MSH 4.1: what a file says is what the mesh holds, in every encoding and numbering; what cannot be a plane
 //! mesh is refused by name.
 
-#[path = "common/mesh_text.rs"]
-mod mesh_text;
-
 use std::path::Path;
 
-use mesh_text::{Form, MeshText, area, block, close, edges, keeps_its_promises, length, strip};
+use crate::common::mesh_text::{
+    Form, MeshText, area, block, close, edges, keeps_its_promises, length, strip,
+};
 use midplane::mesh::{Group, Mesh, from_bytes};
 use midplane::shape::Shape;
 use midplane::shape::vector::in_plane;

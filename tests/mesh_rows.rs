@@ -1,12 +1,10 @@
 //! What a user may do to physical groups and meshes, end to end: it works, or one error names the groups and exits 2.
 
-#[path = "common/squares.rs"]
-mod squares;
-
+use crate::common::squares;
 use std::path::Path;
 use std::process::Output;
 
-use squares::{SCENE, SQUARE, assert_shortened, changed, write};
+use crate::common::squares::{SCENE, SQUARE, assert_shortened, changed, write};
 
 fn midplane(folder: &Path, upper: &str, scene: &str, command: &str) -> Output {
     write(folder, SQUARE, upper, scene);

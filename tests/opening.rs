@@ -3,9 +3,7 @@
 //!
 //! The bodies are so stiff that every law point has the prescribed jump to 1e-6.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::shape::Shape;
 
 /// Fraction of the way to (1e-4, 1e-4), σ, τ [MPa], by an independent program (`law_closed_forms.rs`).

@@ -1,8 +1,6 @@
 //! Claim: nested dissection is a postordered permutation, the same for any number of threads, and its factor is sparse.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::assembly::{Pattern, Symmetric, add_stiffness};
 use midplane::problem::Problem;
 use midplane::shape::Shape;

@@ -7,9 +7,7 @@
 //!   └──┴─────┘
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 use midplane::solver::{Cut, FactorPlan, Linear, Parts, Symbolic, System, nested_dissection};

@@ -7,13 +7,9 @@
 //!         └──── A ────┘ −0.5    u_t = e_tt t + (s_nt/μ) n, u_n = e_nn n; B adds (s_nt/K_T, s_nn/K_N)
 //! ```
 
-mod common;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::table::Table;
+use crate::common::*;
 use midplane::shape::Shape;
-use table::Table;
 
 #[test]
 fn a_constant_stress_passes_any_two_meshes() {

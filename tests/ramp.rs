@@ -1,9 +1,7 @@
 //! Claim: where all interfaces are elastic, an increment of a ramp is the answer to the loads at its level, whatever increments
 //! come before it.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;
 use midplane::shape::Shape;

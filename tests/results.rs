@@ -1,12 +1,9 @@
 //! Claim: the results folder holds the files of the last run and whatever is not of this program, and nothing else.
 
-#[path = "common/squares.rs"]
-mod squares;
-
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use squares::{SCENE, changed, midplane, structured, write};
+use crate::common::squares::{SCENE, changed, midplane, structured, write};
 
 /// The files below a folder but for the meshes, by path.
 fn files(folder: &Path) -> BTreeSet<String> {

@@ -1,9 +1,7 @@
 //! Claim: a history that goes on from a checkpoint, through bytes and with factors made anew, gives what the history that was
 //! not interrupted gives: the same bits where laws are not elastic, 1e-12 of the largest where a scene is linear.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::history::{Checkpoint, Clock, Equations, History, Means, ModelState};
 use midplane::mesh::Mesh;
 use midplane::problem::Problem;

@@ -383,3 +383,15 @@ fn a_type_has_a_name_of_its_own() {
     owners.retain(|_, files| files.len() > 1);
     assert!(owners.is_empty(), "{owners:#?}");
 }
+
+#[test]
+fn every_file_of_tests_is_run() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let listed = std::fs::read_to_string(tests.join("main.rs")).unwrap();
+    for entry in std::fs::read_dir(&tests).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let runs = path.extension().is_none_or(|kind| kind != "rs") || name == "main";
+        assert!(runs || listed.contains(&format!("\nmod {name};\n")), "tests/main.rs has no `mod {name};`");
+    }
+}

@@ -11,24 +11,16 @@
 //!      ╰───────────╯
 //! ```
 
-mod common;
-#[path = "common/rings.rs"]
-mod rings;
-#[path = "common/round.rs"]
-mod round;
-#[path = "common/table.rs"]
-mod table;
-
 use std::f64::consts::PI;
 
-use common::*;
+use crate::common::rings::{Polar, Round, inclusion, rings};
+use crate::common::round::{bent, l2_error, quarter, ring};
+use crate::common::table::{Table, list, rate};
+use crate::common::*;
 use midplane::error::Code;
 use midplane::history::ModelState;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
-use rings::{Polar, Round, inclusion, rings};
-use round::{bent, l2_error, quarter, ring};
-use table::{Table, list, rate};
 
 const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
 

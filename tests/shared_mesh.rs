@@ -7,15 +7,11 @@
 //!   └─────┴───────┘     0 ≤ x ≤ 1 ≤ 3, 0 ≤ y ≤ 1
 //! ```
 
-mod common;
-#[path = "common/mesh_text.rs"]
-mod mesh_text;
-
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::{even, rectangle};
-use mesh_text::{area, edges, keeps_its_promises};
+use crate::common::mesh_text::{area, edges, keeps_its_promises};
+use crate::common::{even, rectangle};
 use midplane::mesh::{Group, Mesh};
 use midplane::shape::Shape;
 

@@ -12,14 +12,10 @@
 //!
 //! Total shear with friction at 84:56 edges: 7.8877 MN/m, of an independent program with its own Newton.
 
-mod common;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::table::Table;
+use crate::common::*;
 use midplane::mesh::Mesh;
 use midplane::shape::Shape;
-use table::Table;
 
 const COULOMB: &str = r#""type": "coulomb", "friction_coefficient": 0.8785"#;
 const CRACKING: &str = r#""type": "cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,

@@ -7,9 +7,7 @@
 //!   └───────────────┘     E = 1e4, ν = 0: exact stresses are uniform
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::history::ModelState;
 use midplane::mesh::{Facet, Group, Mesh};
 use midplane::problem::Problem;

@@ -5,9 +5,7 @@
 //! u(σ) = σ C − (G_I/χ₀) ln(σ/χ₀)     C = L/E + 1/K_N     peak at C χ₀, turning point at σ = G_I / (χ₀ C)
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::shape::Shape;
 
 const E: f64 = 1e4;

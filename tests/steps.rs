@@ -1,9 +1,7 @@
 //! Claim: supports come and go between steps without a trace of their own; an increment that is rejected leaves none; a
 //! scene pays for what it uses.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::history::ModelState;
 use midplane::law;
 use midplane::mesh::Mesh;

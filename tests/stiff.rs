@@ -10,13 +10,9 @@
 //! A is held at its bottom by the exact displacement, the sides carry the exact tractions. B carries the exact traction on its
 //! top (it floats on the interface) or is held there by the exact displacement.
 
-mod common;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::table::Table;
+use crate::common::*;
 use midplane::shape::Shape;
-use table::Table;
 
 /// Of the largest value of the field.
 const LIMIT: f64 = 1e-11;

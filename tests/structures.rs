@@ -8,9 +8,7 @@
 //! △─────────△       └──┴──┴──┘          └─────────┘
 //! ```
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use midplane::mesh::{Group, Mesh};
 use midplane::shape::Shape;
 

@@ -5,13 +5,9 @@
 //! u(σ) = σ (L/E + 1/K_N) − (G_I/χ₀) ln(σ/χ₀)     W = G_I (1 − σ/χ₀)     snap-back if (L/E + 1/K_N) χ₀² / G_I > 1
 //! ```
 
-mod common;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::table::Table;
+use crate::common::*;
 use midplane::shape::Shape;
-use table::Table;
 
 const E: f64 = 1e4;
 const KN: f64 = 1e6;

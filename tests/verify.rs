@@ -1,18 +1,12 @@
 //! Verification against exact solutions: patch with a gradient (case 2), manufactured solution (5a), strip under a
 //! harmonic pressure (5b), stiff and soft limits (9). `make verify` keeps the tables for the documentation.
 
-mod common;
-#[path = "common/strip.rs"]
-mod strip;
-#[path = "common/table.rs"]
-mod table;
-
-use common::*;
+use crate::common::strip::{Manufactured, Strip};
+use crate::common::table::{Table, list, rate};
+use crate::common::*;
 use midplane::history::ModelState;
 use midplane::problem::Problem;
 use midplane::shape::Shape;
-use strip::{Manufactured, Strip};
-use table::{Table, list, rate};
 
 const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
 

@@ -8,12 +8,11 @@
 //!     │  lower  │     u_x = 0 on both sides
 //!     └─△──△──△─┘
 //! ```
-#![allow(dead_code)]
 
 use midplane::mesh::Mesh;
 use midplane::shape::Shape;
 
-use super::common::{even, rectangle};
+use super::{even, rectangle};
 
 /// The rock of the gallery and a masonry interface [MPa, m].
 pub const ROCK: Cracking = Cracking {

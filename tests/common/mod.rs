@@ -1,5 +1,14 @@
 //! Meshes and scenes for tests, made without gmsh.
-#![allow(dead_code)]
+
+pub mod boxes;
+pub mod chains;
+pub mod mesh_text;
+pub mod place;
+pub mod rings;
+pub mod round;
+pub mod squares;
+pub mod strip;
+pub mod table;
 
 use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};

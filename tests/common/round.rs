@@ -9,7 +9,7 @@ use midplane::mesh::{Group, Mesh};
 use midplane::shape::Shape;
 use midplane::shape::vector::in_space;
 
-use super::common::{even, rectangle};
+use super::{even, rectangle};
 
 /// A rectangle whose nodes, mid-nodes included, are put in place one by one.
 pub fn bent(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) -> [f64; 2]) -> Mesh {

@@ -1,5 +1,4 @@
 //! Tables of verification: printed, and kept for the documentation where `MIDPLANE_TABLES` names a folder.
-#![allow(dead_code)]
 
 use std::fmt::Write as _;
 
