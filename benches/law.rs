@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use divan::{Bencher, black_box};
-use midplane::law::{Cracking, Elastic, Integration, Law, Local, Response, State, local};
+use midplane::law::{Cracking, Elastic, Integration, Law, Local, Response, State, Unloading, local};
 
 fn main() {
     divan::main();
@@ -19,6 +19,7 @@ const LAW: Cracking = Cracking {
     fracture_energy_i: 2e-4,
     fracture_energy_iia: 2e-3,
     dilatancy_stress: 500.0,
+    unloading: Unloading::Plastic,
     alpha_tensile_strength: 0.0,
     alpha_cohesion: 0.0,
     alpha_tan_friction: 0.0,

@@ -113,6 +113,26 @@ fn rock_at_any_confinement_on_fine_meshes() {
     matrix((84, 56), [2.920, 1.8685, 1.2855, 0.60, 0.0]);
 }
 
+/// Cracks that close: the same limits, at high pressure the same ends, and no compression through an open gap.
+#[test]
+fn rock_whose_cracks_close_at_any_confinement() {
+    let rock = Cracking { unloading: "closing", ..ROCK };
+    for (mesh, ends) in [((12, 8), [2.902, 1.862]), ((24, 16), [2.915, 1.867])] {
+        for (k, (pressure, all, one, few, apart, within)) in LIMITS.into_iter().enumerate() {
+            let fine = run(&rock.text(), mesh, pressure, 1e-3, 50, "");
+            let coarse = run(&rock.text(), mesh, pressure, 1e-3, 5, "");
+            let what = format!("{mesh:?}, P = {pressure}");
+            assert!(fine.iterations <= all && fine.most <= one, "{what}: {}, {}", fine.iterations, fine.most);
+            assert!(coarse.iterations <= few, "{what}: {}", coarse.iterations);
+            assert!(differ(&fine, &coarse) <= apart, "{what}: {}", differ(&fine, &coarse));
+            assert!(fine.balance < 5e-3 && coarse.balance < 5e-3 && fine.released >= 0.0, "{what}");
+            if let Some(end) = ends.get(k) {
+                close(fine.curve[4], *end, within, *end, &what);
+            }
+        }
+    }
+}
+
 #[test]
 fn the_way_through_the_snap_does_not_hang_on_the_increments() {
     // at P = 0.1 friction locks in behind the snap: ten times the increments give the same to the scatter of that
@@ -258,7 +278,15 @@ fn random_box(number: u64) {
         tensile_strength * logarithmic(&mut random, 0.5, 10.0)
     };
     let energies = [g1, g2];
-    let law = Cracking { stiffness, tensile_strength, cohesion, tan_friction, energies, dilatancy_stress };
+    let law = Cracking {
+        stiffness,
+        tensile_strength,
+        cohesion,
+        tan_friction,
+        energies,
+        dilatancy_stress,
+        unloading: "plastic",
+    };
     let edges = |random: &mut Random| 8 + (23.0 * random.between(0.0, 1.0)) as usize;
     let mesh = (edges(&mut random), edges(&mut random));
     let pressure = 5.0 * random.between(0.0, 1.0);

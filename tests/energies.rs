@@ -69,8 +69,9 @@ fn a_snap_releases_what_the_closed_form_says() {
     }
     let area = |s: f64| 0.5 * compliance * s * s - gi / chi * s;
     let work = 0.5 * compliance * chi * chi + area(s) - area(low);
-    let dissipated = gi * (1.0 - s / chi);
-    let released = work - 0.5 * compliance * s * s - dissipated;
+    let kept = -0.5 * s * gi / chi * (s / chi).ln(); // by the ties across the crack, ½ σ o
+    let dissipated = gi * (1.0 - s / chi) - kept;
+    let released = work - 0.5 * compliance * s * s - kept - dissipated;
     for increments in ["1", "7", "40", "400"] {
         let settings = [("/steps/0/control", "load"), ("/steps/0/increments", increments)];
         let ran = run("bar", &set(&settings));

@@ -22,13 +22,13 @@ fn example_2_is_driven_from_the_scene_of_the_gallery() {
     {
         let arguments = [&["geo/shear/scene.json", "joint", "geo/shear/path.json"], integration].concat();
         let rows = rows(&law(&arguments));
-        let header = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,jump_n_plastic,jump_t_plastic,\
-                      tensile_strength,cohesion,tan_friction,status";
+        let header = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,opening,bridge_stiffness,slip_open,\
+                      jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status";
         assert_eq!(rows[0].join(","), header);
         assert_eq!(rows.len(), 1 + 1 + 2 + 400); // header, start, points
         let last = &rows[403];
         let number = |i: usize| last[i].parse::<f64>().unwrap();
-        assert_eq!((number(0), number(2), number(11)), (2.0, 1e-3, 2.0));
+        assert_eq!((number(0), number(2), number(14)), (2.0, 1e-3, 2.0));
         assert!((number(3) + 5.0).abs() < 1e-9);
         assert!((number(4) - 5.06373649).abs() < tolerance, "{integration:?}: {}", last[4]);
         let highest = rows[1..].iter().map(|row| row[4].parse::<f64>().unwrap()).fold(0.0, f64::max);

@@ -4,7 +4,7 @@
 //! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
 
 use crate::law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Local, Response, State, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, Response, State, Unloading, WORK};
 
 /// Of the strength or the traction.
 const ROUNDING: f64 = 1e-12;
@@ -54,7 +54,8 @@ fn a_million_random_steps_keep_every_promise() {
     let mut steps = 0;
     let (mut by_status, mut leaps) = ([0; 5], 0);
     while steps < 1_000_000 {
-        let law = random.cracking();
+        let unloading = Unloading::Plastic;
+        let law = random.cracking(unloading);
         let elastic = law.tensile_strength / law.normal_stiffness;
         let softening = law.fracture_energy_i / law.tensile_strength;
         let drift = random.direction() * random.between(0.0, 1.5);
@@ -92,8 +93,9 @@ fn a_million_random_steps_keep_every_promise() {
 fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothing() {
     let mirror = |v: Local| Local::new(v.x, -v.y, 0.0);
     let mut random = Random(5);
-    for _ in 0..2000 {
-        let law = random.cracking();
+    for _ in 0..4000 {
+        let unloading = random.unloading();
+        let law = random.cracking(unloading);
         let (mut state, mut mirrored) = (State::default(), State::default());
         for _ in 0..20 {
             let size = random.power(-8.0, -4.5);
@@ -108,7 +110,8 @@ fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothin
 
             let again = go(jump, &state);
             assert_eq!((again.traction, again.dissipation), (state.traction, 0.0));
-            assert_eq!((again.state.jump_plastic, again.state.status), (state.jump_plastic, 0));
+            assert_eq!(again.state.jump_plastic, state.jump_plastic);
+            assert!([0, 4, 5, 6].contains(&again.state.status), "{again:?}");
         }
     }
 }
@@ -117,8 +120,9 @@ fn a_mirrored_way_gives_the_mirrored_traction_and_a_repeated_step_changes_nothin
 #[test]
 fn newton_agrees_with_the_safe_solver() {
     let mut random = Random(6);
-    for _ in 0..2000 {
-        let law = random.cracking();
+    for _ in 0..4000 {
+        let unloading = random.unloading();
+        let law = random.cracking(unloading);
         let softening = law.fracture_energy_i / law.tensile_strength;
         let mut state = State::default();
         for _ in 0..20 {

@@ -55,14 +55,14 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         lines[0],
-        "s,jump_n,jump_t,traction_n,traction_t,fracture_work,jump_n_plastic,jump_t_plastic,\
-         tensile_strength,cohesion,tan_friction,status"
+        "s,jump_n,jump_t,traction_n,traction_t,fracture_work,opening,bridge_stiffness,slip_open,\
+         jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status"
     );
-    assert_eq!(lines[2], "1,1e0,2e-3,1e3,4e0,0e0,0e0,0e0,,,,0");
+    assert_eq!(lines[2], "1,1e0,2e-3,1e3,4e0,0e0,0e0,0e0,0e0,0e0,0e0,,,,0");
     let text = csv(&BLOCK, &path(&[("s", 0.0, -2.0, "d", 0.0, 3e-4, 1)]));
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
     assert_eq!(last.len(), columns().split(',').count());
-    assert_eq!(&last[8..], ["0e0", "0e0", "6e-1", "2"]);
+    assert_eq!(&last[11..], ["0e0", "0e0", "6e-1", "2"]);
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn a_program_may_begin_at_a_given_state() {
 fn a_law_is_read_from_the_keys_of_a_scene_and_unknown_keys_are_refused() {
     let text = r#"{ "type": "cracking", "normal_stiffness": 1.0e7, "tangential_stiffness": 1.0e7,
         "tensile_strength": 3.0, "cohesion": 4.0, "tan_friction": 0.8785,
-        "fracture_energy_i": 2.0e-4, "fracture_energy_iia": 2.0e-3, "dilatancy_stress": 0.0 }"#;
+        "fracture_energy_i": 2.0e-4, "fracture_energy_iia": 2.0e-3, "dilatancy_stress": 0.0, "unloading": "plastic" }"#;
     assert_eq!(serde_json::from_str::<Law>(text).unwrap(), Law::Cracking(EXAMPLE_2));
     let again = serde_json::to_string(&Law::Cracking(EXAMPLE_2)).unwrap();
     assert_eq!(serde_json::from_str::<Law>(&again).unwrap(), Law::Cracking(EXAMPLE_2));

@@ -31,6 +31,7 @@ mod increments;
 mod joints;
 mod junctions;
 mod law_closed_forms;
+mod law_closing;
 mod law_command;
 mod law_coulomb;
 mod law_coulomb_way;

@@ -12,7 +12,7 @@
 use super::coulomb::OPEN;
 use super::cracking::WORK;
 use super::local::{Local, LocalMatrix, N, S, T, across, diagonal, direction, shear};
-use super::{Coulomb, Cracking, Integration, Law, Response, State, Unresolved};
+use super::{Coulomb, Cracking, Integration, Law, Response, State, Unloading, Unresolved};
 
 /// Part of G_I that counts as all of it.
 const SPENT: f64 = 1.0 - 1e-9;
@@ -34,14 +34,18 @@ impl Law {
             Law::Cracking(law) if all && (old.traction.x < 0.0 || !law.is_spent(old, SPENT)) => {
                 let answer = law.respond_on_facet(jump, old);
                 Ok(match answer.traction[N] >= 0.0 && law.is_spent(old, SPENT) {
-                    true => parted(law.tangential_stiffness, answer),
+                    true => law.with_gap(parted(law.tangential_stiffness, answer)),
                     false => answer,
                 })
             }
             Law::Cracking(law) if law.is_spent(old, SPENT) && (all || law.dilatancy_stress == 0.0) => {
                 let own = law.respond(Local::new(old.jump[N], jump[T], jump[S]), old, integration)?;
-                let parted = old.jump_plastic.x.max(jump.x);
-                Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted))
+                let parted = match law.unloading {
+                    Unloading::Closing => old.jump_plastic.x, // the gap is remembered
+                    Unloading::Plastic => old.jump_plastic.x.max(jump.x),
+                };
+                let answer = lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted);
+                Ok(law.with_gap(answer))
             }
             Law::Coulomb(law) if law.dilatancy == 0.0 => {
                 let own = law.at_limit(jump, old);

@@ -16,7 +16,7 @@ mod variable;
 
 pub use admissible::Inadmissible;
 pub use coulomb::Coulomb;
-pub use cracking::{Cracking, Strength, WORK};
+pub use cracking::{Cracking, Strength, Unloading, WORK};
 pub use elastic::Elastic;
 pub use local::{Local, LocalMatrix, N, S, T, diagonal_rows, local, write_diagonal, write_rows};
 pub use state::{Integration, Response, State, Unresolved};
@@ -89,7 +89,7 @@ impl Law {
     pub fn variables(&self) -> &'static [LawVariable] {
         match self {
             Law::Elastic(_) | Law::Coulomb(_) => &[],
-            Law::Cracking(_) => &cracking::VARIABLES,
+            Law::Cracking(law) => law.variables(),
         }
     }
 
@@ -98,15 +98,34 @@ impl Law {
         if self.variables().contains(variable) { state.own[variable.place] } else { 0.0 }
     }
 
-    /// Stored energy of a point whose stiffnesses are above zero, ½ tᵀ D⁻¹ t [stress × length].
+    /// Stored energy of a point whose stiffnesses are above zero [stress × length]: ½ tᵀ D⁻¹ t where the law does not say more.
     pub fn stored(&self, state: &State) -> f64 {
+        if let Law::Cracking(law) = self {
+            return law.stored(state);
+        }
         let t = state.traction;
         0.5 * t.component_mul(&t).component_div(&Local::from(self.elastic_stiffness())).sum()
+    }
+
+    /// Traction at a jump with the point held elastic, and its slopes by the same components [stress / length].
+    pub fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
+        match self {
+            Law::Cracking(law) => law.held(jump, old),
+            _ => {
+                let k = self.elastic_stiffness();
+                (old.traction + Local::from(k).component_mul(&(jump - old.jump)), k)
+            }
+        }
     }
 
     /// True for a softening law whose sides move apart as they slide under compression.
     pub fn dilates(&self) -> bool {
         matches!(self, Law::Cracking(law) if law.dilatancy_stress > 0.0)
+    }
+
+    /// True for a law whose cracks close.
+    pub fn closes(&self) -> bool {
+        matches!(self, Law::Cracking(law) if law.unloading == Unloading::Closing)
     }
 
     /// Steepest loss of traction per jump that the law has [stress / length]; zero if it has no softening.
@@ -190,7 +209,10 @@ impl Law {
                 }
                 law.excess(traction)
             }
-            Law::Cracking(law) => law.excess_at(traction, own[WORK]) - ON_SURFACE * law.cohesion,
+            Law::Cracking(law) => {
+                traction = law.elastic_at(jump, jump_plastic, own);
+                law.excess_at(traction, own[WORK]) - ON_SURFACE * law.cohesion
+            }
         };
         if !jump.iter().chain(&jump_plastic).all(|component| component.is_finite()) || excess > rounding {
             return error_at(

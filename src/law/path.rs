@@ -70,7 +70,8 @@ pub struct Initial {
     pub u_n: f64,
     /// Tangential jump [length].
     pub u_t: f64,
-    /// Irreversible normal jump [length].
+    /// Irreversible normal jump [length]; the dilation d of a crack that closes.
+    #[serde(alias = "dilation")]
     pub up_n: f64,
     /// Irreversible tangential jump [length].
     pub up_t: f64,

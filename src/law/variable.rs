@@ -1,7 +1,7 @@
 //! Variables that a law keeps at a point beyond jump and traction: results, probes and tables follow from their names.
 
 /// Most variables that a law has of its own.
-pub const OWN: usize = 1;
+pub const OWN: usize = 4;
 
 /// A variable of a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

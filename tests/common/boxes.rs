@@ -22,6 +22,7 @@ pub const ROCK: Cracking = Cracking {
     tan_friction: 0.8785,
     energies: [2e-4, 2e-3],
     dilatancy_stress: 0.0,
+    unloading: "plastic",
 };
 pub const MASONRY: Cracking = Cracking {
     stiffness: 1e6,
@@ -30,6 +31,7 @@ pub const MASONRY: Cracking = Cracking {
     tan_friction: 0.75,
     energies: [2e-5, 1e-4],
     dilatancy_stress: 0.0,
+    unloading: "plastic",
 };
 
 /// Parameters of a cracking law.
@@ -41,6 +43,7 @@ pub struct Cracking {
     pub tan_friction: f64,
     pub energies: [f64; 2],
     pub dilatancy_stress: f64,
+    pub unloading: &'static str,
 }
 
 impl Cracking {
@@ -53,11 +56,12 @@ impl Cracking {
             tan_friction,
             energies: [g1, g2],
             dilatancy_stress,
+            unloading,
         } = self;
         format!(
             r#""type": "cracking", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e}, "tensile_strength": {tensile_strength:e},
             "cohesion": {cohesion:e}, "tan_friction": {tan_friction:e}, "fracture_energy_i": {g1:e},
-            "fracture_energy_iia": {g2:e}, "dilatancy_stress": {dilatancy_stress:e}"#
+            "fracture_energy_iia": {g2:e}, "dilatancy_stress": {dilatancy_stress:e}, "unloading": "{unloading}""#
         )
     }
 }

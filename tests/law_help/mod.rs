@@ -1,8 +1,8 @@
 //! What the tests of the laws share: reference curves, parameter sets, a fixed stream of random numbers.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)] // each test takes what it needs
 
-use midplane::law::path::{LawPath, PathRow, drive};
-use midplane::law::{Cracking, Integration, Law, Local, State, WORK};
+use midplane::law::path::{Controlled, LawPath, PathRow, drive};
+use midplane::law::{Cracking, Integration, Law, Local, State, Unloading, WORK};
 use serde_json::Value;
 
 /// Parameters of the paper's example 2 (§4.2) with the energies read as N/mm, in MPa and m.
@@ -16,6 +16,7 @@ pub const EXAMPLE_2: Cracking = Cracking {
     fracture_energy_i: 2e-4,
     fracture_energy_iia: 2e-3,
     dilatancy_stress: 0.0,
+    unloading: Unloading::Plastic,
     alpha_tensile_strength: 0.0,
     alpha_cohesion: 0.0,
     alpha_tan_friction: 0.0,
@@ -51,6 +52,19 @@ pub const CURVES: [&str; 10] = [
     "o10_tension_close_shear",
 ];
 
+/// Curves of cracks that close.
+pub const CLOSING: [&str; 6] = [
+    "c01_tension_close_reopen",
+    "c02_open_close_shear",
+    "c03_dilate_then_open",
+    "c04_cyclic_shear_const_sigma",
+    "c05_mixed_partial",
+    "c06_filled_emptied",
+];
+
+/// Curves of closing.py.
+pub const INTEGRATED: [&str; 2] = ["c07_open_press_shear", "c08_same_with_exponents"];
+
 impl Reference {
     pub fn read(name: &str) -> Reference {
         let file = format!("{}/tests/reference/{name}.json", env!("CARGO_MANIFEST_DIR"));
@@ -67,6 +81,10 @@ impl Reference {
             fracture_energy_i: given("gf1"),
             fracture_energy_iia: given("gf2a"),
             dilatancy_stress: given("sigma_dil"),
+            unloading: match file["unloading"].as_str() {
+                Some("closing") => Unloading::Closing,
+                _ => Unloading::Plastic,
+            },
             alpha_tensile_strength: given("alpha_chi"),
             alpha_cohesion: given("alpha_c"),
             alpha_tan_friction: given("alpha_phi"),
@@ -78,7 +96,34 @@ impl Reference {
     }
 
     pub fn drive(&self, integration: Integration) -> Vec<PathRow> {
-        drive(&self.law, &self.path, &State::default(), integration).unwrap()
+        let mut rows: Vec<PathRow> = Vec::new();
+        let mut initial = self.path.initial.clone();
+        for (k, segment) in self.path.program.iter().enumerate() {
+            let mut segment = *segment;
+            let start = rows.last().map_or(State::default(), |row| row.state);
+            if k > 0 && segment.n.control == Controlled::Displacement {
+                segment.n.start = start.jump.x; // after a stress it is ours, near the one in the file
+            }
+            let path = LawPath { program: vec![segment], initial: initial.take() };
+            let own = drive(&self.law, &path, &start, integration).unwrap();
+            let shifted = |row: PathRow| PathRow { s: row.s + k as f64, ..row };
+            rows.extend(own.into_iter().skip(usize::from(k > 0)).map(shifted));
+        }
+        rows
+    }
+
+    /// ∫ dissipation along a program of jumps.
+    pub fn dissipated(&self, integration: Integration) -> f64 {
+        let mut state = State::default();
+        let mut spent = 0.0;
+        for segment in &self.path.program {
+            let response =
+                self.law.respond(Local::new(segment.n.end, segment.t.end, 0.0), &state, integration);
+            let response = response.unwrap();
+            spent += response.dissipation;
+            state = response.state;
+        }
+        spent
     }
 
     /// Largest errors of σ [MPa], τ [MPa] and W/G_I over the stored points.
@@ -128,8 +173,13 @@ impl Random {
         Local::new(angle.cos(), angle.sin(), 0.0)
     }
 
+    /// One or the other law of unloading; the stream does not move on.
+    pub fn unloading(&self) -> Unloading {
+        if (self.0 >> 17) & 1 == 0 { Unloading::Closing } else { Unloading::Plastic }
+    }
+
     /// A cracking law without inadmissible or doubtful parameters, of the size of rock and concrete (MPa, m).
-    pub fn cracking(&mut self) -> Cracking {
+    pub fn cracking(&mut self, unloading: Unloading) -> Cracking {
         loop {
             let chi = self.between(0.3, 4.0);
             let t = self.between(0.3, 1.2);
@@ -145,6 +195,7 @@ impl Random {
                 fracture_energy_i: energy,
                 fracture_energy_iia: energy * self.between(1.0, 20.0),
                 dilatancy_stress: if self.coin() { 0.0 } else { self.between(1.0, 40.0) },
+                unloading,
                 alpha_tensile_strength: self.between(-1.5, 1.5),
                 alpha_cohesion: self.between(-1.5, 1.5),
                 alpha_tan_friction: self.between(-1.5, 1.5),

@@ -15,7 +15,7 @@ use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
 use crate::history::converged::{Converged, PointResponse};
 use crate::history::loading::StepLoad;
-use crate::law::{self, Local};
+use crate::law::{self, Law, Local};
 use crate::output::Snapshot;
 use crate::solver::{Affine, Form, ask, corrected};
 
@@ -24,7 +24,7 @@ const LINEAR: f64 = 1e-9;
 const DIGITS: f64 = 8.0 * f64::EPSILON;
 
 /// True if every point of an interface answers elastically, or is open throughout.
-fn is_straight(k: [f64; 3], old: &law::State, answer: &PointResponse) -> bool {
+fn is_straight(law: &Law, old: &law::State, answer: &PointResponse) -> bool {
     let new = &answer.state;
     if answer.dissipation != 0.0 || answer.released != 0.0 {
         return false;
@@ -32,6 +32,7 @@ fn is_straight(k: [f64; 3], old: &law::State, answer: &PointResponse) -> bool {
     if old.traction == new.traction && old.traction == Local::zeros() {
         return true;
     }
+    let k = law.held(new.jump, old).1;
     let differs = |i: usize, k: f64| {
         let (change, elastic) = (new.traction[i] - old.traction[i], k * (new.jump[i] - old.jump[i]));
         let rounding = DIGITS * k * (new.jump[i].abs() + old.jump[i].abs() + old.jump_plastic[i].abs());
@@ -49,8 +50,8 @@ pub(super) fn error_of<F: Form>(
 ) -> Option<Estimate> {
     let problem = view.problem;
     let straight = found.interfaces.iter().all(|of| {
-        let k = problem.interfaces[of.interface].law.elastic_stiffness();
-        old[of.interface].iter().zip(&of.memory).all(|(old, new)| is_straight(k, old, new))
+        let law = &problem.interfaces[of.interface].law;
+        old[of.interface].iter().zip(&of.memory).all(|(old, new)| is_straight(law, old, new))
     });
     if straight {
         return None;

@@ -70,8 +70,8 @@ impl Respond for Laws<'_> {
             return Ok(PointResponse::default());
         }
         if self.intact.is_some_and(|intact| intact[interface][point]) {
-            let (k, old) = (law.elastic_stiffness(), &self.old[interface][point]);
-            (0..components).for_each(|i| traction[i] = old.traction[i] + k[i] * (jump[i] - old.jump[i]));
+            let (held, k) = law.held(local(jump), &self.old[interface][point]);
+            traction.copy_from_slice(&held.as_slice()[..components]);
             write_diagonal(&k[..components], stiffness);
             return Ok(PointResponse::default());
         }

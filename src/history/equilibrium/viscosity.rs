@@ -6,7 +6,7 @@ use crate::solver::Iterate;
 
 /// Viscous tractions of what was found, and the work that they do on the way there from those before: that of all tractions
 /// along a straight way, less that of the laws' own by Simpson's rule. And the bend of the tractions of interfaces that
-/// dilate, √(Σ w |Δt|²).
+/// dilate or whose cracks close, √(Σ w |Δt|²).
 pub(super) fn account(
     laws: &Laws,
     active: &[usize],
@@ -22,7 +22,8 @@ pub(super) fn account(
     let (mut released, mut bent) = (0.0, 0.0);
     for (a, &k) in active.iter().enumerate() {
         let points = &problem.model.interfaces[k].coupling.points;
-        let dilates = problem.interfaces[k].law.dilates();
+        let law = &problem.interfaces[k].law;
+        let is_watched = law.dilates() || law.closes();
         let mut now = Vec::with_capacity(components * points.len());
         for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next
@@ -40,7 +41,7 @@ pub(super) fn account(
                 // ½ (t₀ + t₁) − (t₀' + 4 t_m + t₁) / 6
                 let bend = 0.5 * (old.traction[i] + own)
                     - (start.traction[i] + 4.0 * middle.traction[i] + own) / 6.0;
-                bent += if dilates { points[p].weight * bend * bend } else { 0.0 };
+                bent += if is_watched { points[p].weight * bend * bend } else { 0.0 };
                 released += points[p].weight * (0.5 * (before + answer.viscous[i]) + bend) * moved[i];
             }
         }

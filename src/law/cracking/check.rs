@@ -8,7 +8,8 @@
 //! ```
 
 use super::super::admissible::{Inadmissible, error_at, not_negative, positive};
-use super::{Cracking, Surface};
+use super::parameters::Cracking;
+use super::surface::Surface;
 use crate::error::{Code, Warning};
 
 /// Shapes beyond this exponent are steps in double precision.

@@ -9,8 +9,8 @@
 use nalgebra::SVector;
 
 use super::super::local::shear;
-use super::flow::Mode;
-use super::march::{Stage, WayPoint, two_stage_step};
+use super::march::{TwoStages, WayPoint, two_stage_step};
+use super::mode::Mode;
 use super::surface::Surface;
 
 /// Local bound per ε^{3/2}, of the strength.
@@ -28,6 +28,8 @@ const AT_ORIGIN: f64 = 1e-10;
 /// Bounds of the change of length from one sub-step to the next.
 const SHRINK: f64 = 0.2;
 const GROW: f64 = 5.0;
+/// No sub-step leaves less than this part of itself to go: an answer over a length of rounding has no derivative.
+const REMAINDER: f64 = 1e-9;
 /// A sub-step this short, of the first length, is not divided further.
 const SHORTEST: f64 = 1e-10;
 /// Change of traction in a sub-step across an event, per ε, of the strength.
@@ -46,7 +48,8 @@ const SNAPS: usize = 50;
 /// A sub-step done in halves.
 pub(super) struct Double<const D: usize> {
     pub length: f64,
-    pub stages: [[Stage<D>; 2]; 2],
+    pub steps: [TwoStages<D>; 2],
+    pub middle: WayPoint<D>,
     pub end: WayPoint<D>,
 }
 
@@ -101,6 +104,7 @@ impl ErrorControl {
                 Some((beyond, _)) => length.min(beyond),
                 None => length,
             };
+            let length = if left - length <= REMAINDER * length { left } else { length };
             let (whole, _) = two_stage_step(surface, from, direction * length);
             let step = in_halves(surface, from, direction, length);
             let misfit = (whole.traction - step.end.traction).amax();
@@ -152,7 +156,7 @@ pub(super) fn in_halves<const D: usize>(
     let change = direction * (0.5 * length);
     let (middle, first) = two_stage_step(surface, from, change);
     let (end, second) = two_stage_step(surface, &middle, change);
-    Double { length, stages: [first, second], end }
+    Double { length, steps: [first, second], middle, end }
 }
 
 /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up
@@ -174,6 +178,6 @@ fn is_across_event<const D: usize>(surface: &Surface, from: &WayPoint<D>, step: 
     let mode = step.end.mode;
     let used_up = |w: f64| [w * surface.per_gf_i >= USED_UP, w * surface.per_gf_iia >= USED_UP];
     (from.mode != Mode::Elastic && from.mode != mode)
-        || step.stages.iter().flatten().any(|stage| stage.mode() != mode)
+        || step.steps.iter().any(|step| step.is_across(mode))
         || used_up(from.work) != used_up(step.end.work)
 }

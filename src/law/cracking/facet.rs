@@ -8,14 +8,16 @@
 //! does not. The answer is the nearest point of a convex set, so that a step of a whole interface has one answer whatever
 //! the viscosity. A state that does not move lies inside the surface of the law itself.
 
-use super::march::{compliant, stiff};
+use super::elastic::{compliant, stiff};
 use nalgebra::SVector;
 
 use super::super::local::{
     Local, LocalMatrix, N, across, along, diagonal, direction, narrow, shear, widen, widen_matrix,
 };
 use super::super::{Response, State};
-use super::flow::Mode;
+use super::crack::{Crack, Line};
+use super::flow::Answer;
+use super::mode::Mode;
 use super::surface::Surface;
 use super::variables::WORK;
 
@@ -111,10 +113,17 @@ impl Set {
 
 /// The answer at a jump from an old state. Where the surface has shrunk under that, its traction drops first.
 pub(super) fn on_facet<const D: usize>(surface: &Surface, jump: Local, old: &State) -> Response {
-    let set = Set::new(surface, old);
+    let mut set = Set::new(surface, old);
     let carried: SVector<f64, D> = narrow(&old.traction);
     let start = set.nearest(&carried).0;
-    let trial = carried + stiff(surface, narrow(&jump) - narrow(&old.jump));
+    let change: SVector<f64, D> = narrow(&jump) - narrow(&old.jump);
+    let mut trial = carried + stiff(surface, change);
+    let was = Crack::of(surface, old);
+    let by = Crack { gap: was.gap + change[N], ..was }.predict(surface, trial[N], change[N] >= 0.0);
+    if by.line == Line::Secant {
+        set.stiffness[N] = was.bridge; // the ties of an open crack
+    }
+    trial[N] = by.sigma;
     let (traction, part) = set.nearest(&trial);
     let (dropped, plastic) = (compliant(surface, carried - start), compliant(surface, trial - traction));
     let leaves = start + (trial - start) * set.exit(&start, &trial);
@@ -136,6 +145,21 @@ pub(super) fn on_facet<const D: usize>(surface: &Surface, jump: Local, old: &Sta
         ..*old
     };
     state.own[WORK] = old.own[WORK] + work.max(0.0);
+    let dissipation = match surface.closes {
+        true => {
+            let (sigma, work) = (traction[N], state.own[WORK]);
+            let answer = Answer { mode, sigma, tau: shear(&traction), work };
+            let crack = was.after(surface, &by, &answer, shear(&plastic));
+            let d = if crack.dilated { jump[N] - crack.gap } else { old.jump_plastic[N] };
+            state.jump_plastic[N] = d;
+            crack.store(surface, &mut state);
+            // ψ_n beside ½ σ²/K_N: what the ties take on the elastic way and do not keep is dissipated too
+            let taken = was.trial_energy(surface, &by) - 0.5 * by.sigma * by.sigma / surface.kn;
+            let kept = crack.energy(surface, sigma) - 0.5 * sigma * sigma / surface.kn;
+            (dissipation + taken - kept).max(0.0)
+        }
+        false => dissipation,
+    };
     Response {
         traction: state.traction,
         stiffness: set.tangent(part, &trial, &traction),

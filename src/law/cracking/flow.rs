@@ -10,31 +10,28 @@
 //! ω  = (τ + σ t)(τ_t − τ)/K_T                                  C, Z: without friction
 //! ```
 //!
-//! Two modes fix σ and leave W alone: compression without dilatancy (σ = σ_t) and Z (σ = 0).
+//! Two modes fix σ and leave W alone: compression without dilatancy (σ = σ_t) and Z (σ = 0). Where cracks close, dilation in C
+//! is at most M times the slip: s t f ≤ M τ.
 
+use super::mode::{Mode, RIDING_SLOPE};
 use super::surface::{Hyperbola, Surface};
-
-/// Modes of a point in a step; the number is the status.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
-    /// Elastic.
-    Elastic = 0,
-    /// T: cracking under tension.
-    Tension = 1,
-    /// C: cracking under compression.
-    Compression = 2,
-    /// Z: opening and sliding with σ held at 0.
-    Sliding = 3,
-    /// A: free of stress.
-    Open = 4,
-}
 
 /// Trial traction with τ ≥ 0, and the old work.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trial {
+    /// σ_t of T.
     pub sigma: f64,
+    /// σ_t of C and Z: that of T, or more where faces may ride on each other (`crack`).
+    pub sigma_faces: f64,
     pub tau: f64,
     pub work: f64,
+}
+
+impl Trial {
+    /// σ_t of a mode.
+    pub fn normal(&self, mode: Mode) -> f64 {
+        if matches!(mode, Mode::Compression | Mode::Sliding) { self.sigma_faces } else { self.sigma }
+    }
 }
 
 /// A step's answer, τ ≥ 0.
@@ -57,7 +54,8 @@ pub(super) struct ByTauWork {
 /// Everything the two equations share at one (τ, W).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ReturnEquations {
-    pub s: f64,
+    /// s t f, or what the slope of riding allows.
+    pub flow: f64,
     pub sigma: ByTauWork,
     pub normal: ByTauWork,
     pub work: ByTauWork,
@@ -79,7 +77,8 @@ pub(super) fn normal_equation(
     let s = now.root(tau);
     let sigma = now.sigma(tau, s);
     let f = if mode == Mode::Tension { 1.0 } else { surface.dilatancy(sigma).0 * now.fc };
-    tau * (sigma - trial.sigma) + surface.kn / surface.kt * (trial.tau - tau) * s * now.t * f
+    let flow = surface.bounded(mode, s * now.t * f, tau);
+    tau * (sigma - trial.normal(mode)) + surface.kn / surface.kt * (trial.tau - tau) * flow
 }
 
 /// The work ω of the step that ends at (σ, τ).
@@ -124,11 +123,20 @@ pub(super) fn equations(
     };
     let ratio = surface.kn / surface.kt;
     let shear = trial.tau - tau;
-    let over = sigma.value - trial.sigma;
-    let normal = ByTauWork {
-        value: tau * over + ratio * shear * s * t * f,
-        tau: over + tau * sigma.tau + ratio * t * (shear * (g * f + s * f_tau) - s * f),
-        work: tau * sigma.work + ratio * shear * (s_w * t * f + s * dt * f + s * t * f_w),
+    let over = sigma.value - trial.normal(mode);
+    let flow = surface.bounded(mode, s * t * f, tau);
+    let normal = if flow < s * t * f {
+        ByTauWork {
+            value: tau * over + ratio * shear * flow,
+            tau: over + tau * sigma.tau + ratio * RIDING_SLOPE * (shear - tau),
+            work: tau * sigma.work,
+        }
+    } else {
+        ByTauWork {
+            value: tau * over + ratio * shear * s * t * f,
+            tau: over + tau * sigma.tau + ratio * t * (shear * (g * f + s * f_tau) - s * f),
+            work: tau * sigma.work + ratio * shear * (s_w * t * f + s * dt * f + s * t * f_w),
+        }
     };
 
     let (value, omega_tau, omega_w) = if mode == Mode::Tension {
@@ -147,5 +155,5 @@ pub(super) fn equations(
         )
     };
     let work = ByTauWork { value: w - trial.work - value, tau: -omega_tau, work: 1.0 - omega_w };
-    ReturnEquations { s, sigma, normal, work }
+    ReturnEquations { flow, sigma, normal, work }
 }

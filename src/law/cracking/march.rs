@@ -9,26 +9,25 @@
 //!
 //! The last stage is the end of the step, so F = 0 holds there to rounding; all weights are positive, so the work W
 //! and the dissipation never fall. Plain backward Euler is the one stage γ = 1. Tractions are carried instead of the
-//! irreversible jump: K r loses digits at high stiffness, K Δr of a sub-step does not.
+//! irreversible jump: K r loses digits at high stiffness, K Δr of a sub-step does not. Where a crack closes and the first stage
+//! changes its regime (`crack`), the step is two backward Euler steps, γ and 1 − γ.
 
-use super::nested::solve_nested;
-use super::newton::solve;
-use super::tangent::linearise;
-use nalgebra::{Matrix3, RowSVector, SMatrix, SVector};
+use nalgebra::{SMatrix, SVector};
 
 use super::super::State;
-use super::super::local::{N, S, T, along, direction, narrow, shear};
-use super::flow::{Answer, Mode, Trial};
+use super::super::local::{N, narrow, shear};
+use super::crack::{Crack, Regime};
+use super::elastic::{stiff, stiff_rows};
+use super::mode::Mode;
+use super::stage::{CrackSlopes, Old, Stage, StageSlopes, stage, stage_nested};
 use super::surface::Surface;
+use super::ties::bounded_slope;
 use super::variables::WORK;
 
 /// γ of the two-stage scheme.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Weight of the first stage per its own step: (1 − γ)/γ.
 const FIRST: f64 = (1.0 - GAMMA) / GAMMA;
-/// A trial outside by less, relative to strength and traction, is elastic.
-pub(super) const ELASTIC: f64 = 1e-13;
-
 /// A point of the way.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WayPoint<const D: usize> {
@@ -36,6 +35,7 @@ pub(super) struct WayPoint<const D: usize> {
     pub work: f64,
     pub dissipation: f64,
     pub mode: Mode,
+    pub crack: Crack,
 }
 
 /// Derivatives of a point by the jump at the end of the whole increment; columns (n, t, s).
@@ -46,6 +46,7 @@ pub(super) struct Slopes<const D: usize> {
     pub traction: SMatrix<f64, D, D>,
     pub work: SVector<f64, D>,
     pub dissipation: SVector<f64, D>,
+    pub crack: CrackSlopes<D>,
 }
 
 /// Derivative of a change of jump by the jump at the end; in the plane that of s stands alone.
@@ -55,56 +56,60 @@ pub(super) struct Change<const D: usize> {
     pub across: f64,
 }
 
-/// One backward Euler solve, as the derivatives need it again.
+/// A step of the two-stage scheme.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stage<const D: usize> {
-    trial: SVector<f64, D>,
-    work_old: f64,
-    traction: SVector<f64, D>,
-    answer: Answer,
+pub(super) struct TwoStages<const D: usize> {
+    pub stages: [Stage<D>; 2],
+    /// The second stage starts where the first one ends.
+    restarts: bool,
+    /// B at the start and what the step pays for more of it.
+    kept: f64,
+    paid: f64,
+}
+
+impl<const D: usize> TwoStages<D> {
+    /// True if a stage has another mode than the end, or the crack changed its regime in the first one.
+    pub fn is_across(&self, mode: Mode) -> bool {
+        self.stages.iter().any(|stage| stage.mode() != mode)
+            || (self.restarts && self.stages[0].before.regime != self.stages[1].crack.regime)
+    }
 }
 
 impl<const D: usize> WayPoint<D> {
     /// The start of an increment.
-    pub fn start(old: &State) -> WayPoint<D> {
+    pub fn start(surface: &Surface, old: &State) -> WayPoint<D> {
         WayPoint {
             traction: narrow(&old.traction),
             work: old.own[WORK],
             dissipation: 0.0,
             mode: Mode::Elastic,
+            crack: Crack::of(surface, old),
         }
     }
-}
 
-/// K Δr, or K dr.
-pub(super) fn stiff<const D: usize>(surface: &Surface, jump: SVector<f64, D>) -> SVector<f64, D> {
-    SVector::from_fn(|i, _| if i == N { surface.kn * jump[i] } else { surface.kt * jump[i] })
-}
-
-/// K⁻¹ Δt.
-pub(super) fn compliant<const D: usize>(surface: &Surface, traction: SVector<f64, D>) -> SVector<f64, D> {
-    SVector::from_fn(|i, _| if i == N { traction[i] / surface.kn } else { traction[i] / surface.kt })
-}
-
-/// Least distance of a trial from the surface that counts as outside [stress].
-pub(super) fn margin<const D: usize>(surface: &Surface, traction: SVector<f64, D>) -> f64 {
-    ELASTIC * surface.c0.max(traction.amax())
-}
-
-fn stage<const D: usize>(
-    surface: &Surface,
-    trial: SVector<f64, D>,
-    work_old: f64,
-    tau_near: f64,
-) -> Stage<D> {
-    if surface.at(work_old).hyperbola(trial[N], shear(&trial)) <= margin(surface, trial) {
-        let answer = Answer { mode: Mode::Elastic, sigma: trial[N], tau: shear(&trial), work: work_old };
-        return Stage { trial, work_old, traction: trial, answer };
+    /// Share of a change of jump that a spent crack does in contact, after its faces met; none if they do not.
+    pub fn share_in_contact(&self, change: SVector<f64, D>) -> Option<f64> {
+        let meets = self.crack.regime == Regime::Free && self.crack.gap + change[N] < 0.0;
+        meets.then(|| 1.0 + self.crack.gap / change[N])
     }
-    let half = Trial { sigma: trial[N], tau: shear(&trial), work: work_old };
-    let answer = solve(surface, &half, tau_near);
-    let traction = along(answer.sigma, answer.tau, &direction(&trial));
-    Stage { trial, work_old, traction, answer }
+
+    /// The faces of a spent crack meet here; nothing is carried yet.
+    pub fn touch(&mut self, surface: &Surface) {
+        self.traction = SVector::zeros();
+        let Crack { dilated, .. } = self.crack;
+        self.crack = Crack { dilated, ..Crack::closed(surface) };
+    }
+
+    /// The old values of a backward Euler step along a change of jump.
+    fn old(&self, surface: &Surface, change: SVector<f64, D>) -> Old<D> {
+        Old {
+            carried: self.traction + stiff(surface, change),
+            work: self.work,
+            crack: Crack { gap: self.crack.gap + change[N], ..self.crack },
+            opens: change[N] >= 0.0,
+            tau_near: shear(&self.traction),
+        }
+    }
 }
 
 /// One backward Euler step by the nested solver.
@@ -113,13 +118,14 @@ pub(super) fn step_nested<const D: usize>(
     jump: SVector<f64, D>,
     old: &State,
 ) -> (SVector<f64, D>, f64) {
-    let trial = narrow(&old.traction) + stiff(surface, jump - narrow(&old.jump));
-    if surface.at(old.own[WORK]).hyperbola(trial[N], shear(&trial)) <= margin(surface, trial) {
-        return (trial, old.own[WORK]);
+    let mut from = WayPoint::<D>::start(surface, old);
+    let mut change = jump - narrow(&old.jump);
+    if let Some(share) = from.share_in_contact(change) {
+        from.touch(surface);
+        change *= share;
     }
-    let half = Trial { sigma: trial[N], tau: shear(&trial), work: old.own[WORK] };
-    let answer = solve_nested(surface, &half);
-    (along(answer.sigma, answer.tau, &direction(&trial)), answer.work)
+    let stage = stage_nested(surface, &from.old(surface, change));
+    (stage.traction, stage.answer.work)
 }
 
 /// One backward Euler step along a change of jump.
@@ -128,8 +134,12 @@ pub(super) fn euler_step<const D: usize>(
     from: &WayPoint<D>,
     change: SVector<f64, D>,
 ) -> (WayPoint<D>, Stage<D>) {
-    let stage = stage(surface, from.traction + stiff(surface, change), from.work, shear(&from.traction));
-    (stage.end(from.dissipation + stage.dissipation(surface)), stage)
+    let stage = stage(surface, &from.old(surface, change));
+    let mut dissipation = from.dissipation + stage.dissipation(surface);
+    if surface.closes {
+        dissipation -= stage.kept_change(surface);
+    }
+    (stage.end(dissipation), stage)
 }
 
 /// One step of the two-stage scheme along a change of jump.
@@ -137,87 +147,58 @@ pub(super) fn two_stage_step<const D: usize>(
     surface: &Surface,
     from: &WayPoint<D>,
     change: SVector<f64, D>,
-) -> (WayPoint<D>, [Stage<D>; 2]) {
-    let first =
-        stage(surface, from.traction + GAMMA * stiff(surface, change), from.work, shear(&from.traction));
+) -> (WayPoint<D>, TwoStages<D>) {
+    let mut old = from.old(surface, change * GAMMA);
+    old.carried = from.traction + GAMMA * stiff(surface, change);
+    let first = stage(surface, &old);
+    if surface.closes && !first.is_regular() {
+        let middle = first.end(from.dissipation + first.dissipation(surface) - first.kept_change(surface));
+        let (end, second) = euler_step(surface, &middle, change * (1.0 - GAMMA));
+        return (end, TwoStages { stages: [first, second], restarts: true, kept: 0.0, paid: 0.0 });
+    }
     let returned = first.trial - first.traction;
-    let second = stage(
-        surface,
-        from.traction + stiff(surface, change) - FIRST * returned,
-        from.work + FIRST * (first.answer.work - from.work),
-        first.answer.tau,
-    );
+    let mut old = Old {
+        carried: from.traction + stiff(surface, change) - FIRST * returned,
+        work: from.work + FIRST * (first.answer.work - from.work),
+        tau_near: first.answer.tau,
+        ..from.old(surface, change)
+    };
+    if surface.closes {
+        let shifted = |before: f64, after: f64| before + FIRST * (after - before);
+        old.crack.opening = shifted(from.crack.opening, first.crack.opening).max(0.0);
+        old.crack.slip = shifted(from.crack.slip, first.crack.slip);
+        if from.crack.regime == Regime::Secant {
+            old.crack.bridge = shifted(from.crack.bridge, first.crack.bridge).max(0.0);
+        }
+        old.crack.dilated = first.crack.dilated;
+    }
+    let second = stage(surface, &old);
     let dissipation = from.dissipation + FIRST * first.dissipation(surface) + second.dissipation(surface);
-    (second.end(dissipation), [first, second])
+    let mut end = second.end(dissipation);
+    if surface.closes && end.crack.regime == Regime::Free && !surface.is_spent(from.work) {
+        end.work = surface.settled(end.work.min(surface.all_of_mode_i())); // the shift may lie beyond it
+    }
+    let (mut kept, mut paid) = (0.0, 0.0);
+    if surface.closes && from.crack.regime == Regime::Envelope && second.is_regular() {
+        kept = from.crack.stored;
+        paid = FIRST * first.spent_on_opening(surface) + second.spent_on_opening(surface);
+        end.crack.keep(surface, kept + paid, end.traction[N]);
+        end.dissipation -= end.crack.stored - kept;
+    } else if surface.closes {
+        end.dissipation -= second.kept_change(surface);
+    }
+    (end, TwoStages { stages: [first, second], restarts: false, kept, paid })
 }
 
 impl<const D: usize> Stage<D> {
-    /// Mode at the end of this stage.
-    pub fn mode(&self) -> Mode {
-        self.answer.mode
-    }
-
-    /// t · Δr^p of this stage alone.
-    fn dissipation(&self, surface: &Surface) -> f64 {
-        self.traction.dot(&compliant(surface, self.trial - self.traction))
-    }
-
     fn end(&self, dissipation: f64) -> WayPoint<D> {
-        WayPoint { traction: self.traction, work: self.answer.work, dissipation, mode: self.answer.mode }
-    }
-
-    /// |τ|/|τ_trial|, its limit where there is no shear.
-    fn turned(&self, surface: &Surface) -> f64 {
-        let half = Trial { sigma: self.trial[N], tau: shear(&self.trial), work: self.work_old };
-        match (self.answer.mode, half.tau > 0.0) {
-            (Mode::Elastic, _) => 1.0,
-            (_, true) => self.answer.tau / half.tau,
-            _ => linearise(surface, &half, &self.answer)[(1, 1)],
+        WayPoint {
+            traction: self.traction,
+            work: self.answer.work,
+            dissipation,
+            mode: self.answer.mode,
+            crack: self.crack,
         }
-    }
-
-    /// d(t, W) of this stage from d(trial, W_old).
-    fn slopes(
-        &self,
-        surface: &Surface,
-        trial: &SMatrix<f64, D, D>,
-        work: &SVector<f64, D>,
-    ) -> (SMatrix<f64, D, D>, SVector<f64, D>) {
-        if self.answer.mode == Mode::Elastic {
-            return (*trial, *work);
-        }
-        let e = direction(&self.trial);
-        let half = Trial { sigma: self.trial[N], tau: shear(&self.trial), work: self.work_old };
-        let by_trial: Matrix3<f64> = linearise(surface, &half, &self.answer);
-        // d|τ_trial|
-        let size = (T..D).map(|i| trial.row(i) * e[i]).sum::<RowSVector<f64, D>>();
-        let row = |i: usize| -> SVector<f64, D> {
-            let from_sigma = trial.row(N).transpose() * by_trial[(i, 0)];
-            let from_tau = size.transpose() * by_trial[(i, 1)];
-            from_sigma + from_tau + work * by_trial[(i, 2)]
-        };
-        let (sigma, tau) = (row(0).transpose(), row(1).transpose());
-        let mut traction = SMatrix::<f64, D, D>::zeros();
-        traction.set_row(N, &sigma);
-        for i in T..D {
-            let mut own = tau * e[i];
-            if D > S {
-                own += (trial.row(i) - size * e[i]) * self.turned(surface);
-            }
-            traction.set_row(i, &own);
-        }
-        (traction, row(2))
-    }
-
-    /// d(t · Δr^p) of this stage.
-    fn dissipation_slope(
-        &self,
-        surface: &Surface,
-        trial: &SMatrix<f64, D, D>,
-        traction: &SMatrix<f64, D, D>,
-    ) -> SVector<f64, D> {
-        let plastic = compliant(surface, self.trial - self.traction);
-        traction.tr_mul(&plastic) + (trial - traction).tr_mul(&compliant(surface, self.traction))
     }
 }
 
@@ -229,42 +210,103 @@ impl<const D: usize> Slopes<D> {
             traction: SMatrix::zeros(),
             work: SVector::zeros(),
             dissipation: SVector::zeros(),
+            crack: CrackSlopes::none(),
         }
     }
 
     /// Carries the derivatives over a backward Euler step, whose change of jump has the derivative `change`.
     pub fn over_euler_step(&self, surface: &Surface, stage: &Stage<D>, change: &Change<D>) -> Slopes<D> {
-        let trial = self.traction + stiff_rows(surface, &change.along);
+        let carried = self.traction + stiff_rows(surface, &change.along);
         let across = stage.turned(surface) * (self.across + surface.kt * change.across);
-        let (traction, work) = stage.slopes(surface, &trial, &self.work);
-        let dissipation = self.dissipation + stage.dissipation_slope(surface, &trial, &traction);
-        Slopes { across, traction, work, dissipation }
+        let old = self.crack_after(&change.along);
+        let at = stage.slopes(surface, &carried, &self.work, &old);
+        let mut dissipation = self.dissipation + stage.dissipation_slope(surface, &old, &at);
+        let mut crack = at.crack;
+        if surface.closes {
+            let [end, added] = stage.kept_slopes(surface, &old, &at);
+            crack.stored = end;
+            dissipation -= added;
+            if stage.crack.regime == Regime::Envelope {
+                crack.set_bridge_by_stored(surface, &stage.crack);
+            }
+        }
+        Slopes { across, traction: at.traction, work: at.work, dissipation, crack }
     }
 
     /// Carries the derivatives over a step of the two-stage scheme.
     pub fn over_two_stages(
         &self,
         surface: &Surface,
-        stages: &[Stage<D>; 2],
+        step: &TwoStages<D>,
         change: &Change<D>,
+        end: &WayPoint<D>,
     ) -> Slopes<D> {
+        let stages = &step.stages;
+        if step.restarts {
+            let part = |part: f64| Change { along: change.along * part, across: change.across * part };
+            return self.over_euler_step(surface, &stages[0], &part(GAMMA)).over_euler_step(
+                surface,
+                &stages[1],
+                &part(1.0 - GAMMA),
+            );
+        }
         let stiff = stiff_rows(surface, &change.along);
         let (across, kt) = (self.across, surface.kt * change.across);
         let returned = (1.0 - stages[0].turned(surface)) * (across + GAMMA * kt);
         let across = stages[1].turned(surface) * (across + kt - FIRST * returned);
-        let trial_1 = self.traction + GAMMA * stiff;
-        let (traction_1, work_1) = stages[0].slopes(surface, &trial_1, &self.work);
-        let trial_2 = self.traction + stiff - FIRST * (trial_1 - traction_1);
-        let work_old = self.work + FIRST * (work_1 - self.work);
-        let (traction, work) = stages[1].slopes(surface, &trial_2, &work_old);
-        let dissipation = self.dissipation
-            + FIRST * stages[0].dissipation_slope(surface, &trial_1, &traction_1)
-            + stages[1].dissipation_slope(surface, &trial_2, &traction);
-        Slopes { across, traction, work, dissipation }
+        let carried_1 = self.traction + GAMMA * stiff;
+        let old_1 = self.crack_after(&(change.along * GAMMA));
+        let at_1 = stages[0].slopes(surface, &carried_1, &self.work, &old_1);
+        let carried_2 = self.traction + stiff - FIRST * (at_1.trial - at_1.traction);
+        let work_old = self.work + FIRST * (at_1.work - self.work);
+        let mut old_2 = self.crack_after(&change.along);
+        if surface.closes {
+            let shifted = |before: SVector<f64, D>, after: SVector<f64, D>| before + (after - before) * FIRST;
+            old_2.opening = shifted(self.crack.opening, at_1.crack.opening);
+            old_2.slip = shifted(self.crack.slip, at_1.crack.slip);
+            if stages[0].crack.regime == Regime::Secant {
+                old_2.bridge = match stages[1].before.bridge > 0.0 {
+                    true => shifted(self.crack.bridge, at_1.crack.bridge),
+                    false => SVector::zeros(),
+                };
+            }
+        }
+        let at = stages[1].slopes(surface, &carried_2, &work_old, &old_2);
+        let mut dissipation = self.dissipation
+            + FIRST * stages[0].dissipation_slope(surface, &old_1, &at_1)
+            + stages[1].dissipation_slope(surface, &old_2, &at);
+        let mut crack = at.crack;
+        if surface.closes {
+            let added = self.kept_over(surface, step, [&at_1, &at], &old_2, end, &mut crack);
+            dissipation -= added;
+        }
+        Slopes { across, traction: at.traction, work: at.work, dissipation, crack }
     }
-}
 
-/// K times a derivative of a jump.
-pub(super) fn stiff_rows<const D: usize>(surface: &Surface, jump: &SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
-    SMatrix::from_fn(|i, j| if i == N { surface.kn * jump[(i, j)] } else { surface.kt * jump[(i, j)] })
+    /// What is known of the crack, with the gap after a change of jump.
+    fn crack_after(&self, change: &SMatrix<f64, D, D>) -> CrackSlopes<D> {
+        CrackSlopes { gap: self.crack.gap + change.row(N).transpose(), ..self.crack }
+    }
+
+    /// Sets dB and dk at the end of a step that does not restart; returns the derivative of what was added to B.
+    fn kept_over(
+        &self,
+        surface: &Surface,
+        step: &TwoStages<D>,
+        [first, second]: [&StageSlopes<D>; 2],
+        old: &CrackSlopes<D>,
+        end: &WayPoint<D>,
+        crack: &mut CrackSlopes<D>,
+    ) -> SVector<f64, D> {
+        let [one, two] = &step.stages;
+        if two.before.regime != Regime::Envelope || !two.is_regular() {
+            let [stored, added] = two.kept_slopes(surface, old, second);
+            crack.stored = stored;
+            return added;
+        }
+        let paid = one.spent_slope(surface, first) * FIRST + two.spent_slope(surface, second);
+        crack.stored = bounded_slope(&end.crack, step.kept + step.paid, self.crack.stored + paid, second);
+        crack.set_bridge_by_stored(surface, &end.crack);
+        crack.stored - self.crack.stored
+    }
 }

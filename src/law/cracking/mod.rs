@@ -12,71 +12,41 @@
 //! stays for a while. The paper gives the surface, its three parameters, the one history variable and the two limit
 //! modes; the shapes S, the factors of f and the work follow the literature it cites.
 
+mod answer;
 mod check;
 mod control;
+mod crack;
+mod elastic;
 mod facet;
 mod flow;
 mod march;
+mod mode;
 mod nested;
 mod newton;
-mod substep;
+mod parameters;
+mod stage;
 mod surface;
 mod tangent;
+mod ties;
 mod variables;
+mod way;
 
+pub use parameters::{Cracking, Unloading};
 pub use surface::Strength;
 pub(super) use variables::VARIABLES;
 pub use variables::WORK;
 
+use crack::Crack;
+use elastic::stiff;
 use facet::on_facet;
 use march::step_nested;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::local::{Local, N, narrow, shear};
+use super::variable::{LawVariable, OWN};
 use super::{Integration, Response, State, Unresolved};
-use substep::{Lengths, march, march_euler, onset_of};
+use answer::{held, march, march_euler, onset_of};
 use surface::Surface;
-
-/// Parameters of the cracking law. Shape exponents α: 0 is linear in the work spent, more delays, less hastens.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Cracking {
-    /// Normal elastic (penalty) stiffness K_N [stress / length], above χ₀² e^|α| / G_I.
-    pub normal_stiffness: f64,
-    /// Tangential elastic (penalty) stiffness K_T [stress / length].
-    pub tangential_stiffness: f64,
-    /// Tensile strength of the intact interface χ₀ [stress].
-    pub tensile_strength: f64,
-    /// Apparent cohesion of the intact interface c₀ [stress], at least χ₀ tanφ₀.
-    pub cohesion: f64,
-    /// Tangent of the friction angle of the intact interface tanφ₀ [-].
-    pub tan_friction: f64,
-    /// Tangent of the residual friction angle tanφ_r [-]. Default: no loss.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub tan_friction_residual: Option<f64>,
-    /// Fracture energy in mode I, G_I [stress × length].
-    pub fracture_energy_i: f64,
-    /// Fracture energy in mode IIa (shear under very high compression), G_II [stress × length].
-    pub fracture_energy_iia: f64,
-    /// Compression σ_dil at which dilatancy vanishes [stress]; 0 is no dilatancy under any compression.
-    pub dilatancy_stress: f64,
-    /// Shape exponent of the loss of tensile strength [-]. Default 0.
-    #[serde(default)]
-    pub alpha_tensile_strength: f64,
-    /// Shape exponent of the loss of cohesion [-]. Default 0.
-    #[serde(default)]
-    pub alpha_cohesion: f64,
-    /// Shape exponent of the loss of friction [-]. Default 0.
-    #[serde(default)]
-    pub alpha_tan_friction: f64,
-    /// Shape exponent of the loss of dilatancy with compression [-]. Default 0.
-    #[serde(default)]
-    pub alpha_dilatancy_stress: f64,
-    /// Shape exponent of the loss of dilatancy with cohesion [-]. Default 0.
-    #[serde(default)]
-    pub alpha_dilatancy_cohesion: f64,
-}
+use way::Lengths;
 
 impl Cracking {
     /// Strength (χ, c, tanφ) once the work W has been spent.
@@ -131,12 +101,59 @@ impl Cracking {
         }
     }
 
+    /// An answer of a spent point with what a crack that closes knows of its gap.
+    pub(super) fn with_gap(&self, mut answer: Response) -> Response {
+        let surface = Surface::new(self);
+        if surface.closes {
+            Crack::spent(&surface, &answer.state).store(&surface, &mut answer.state);
+        }
+        answer
+    }
+
     /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
     pub(super) fn onset(&self, jump: Local, old: &State) -> Option<f64> {
         match old.is_plane(&jump) {
             true => onset_of::<2>(&Surface::new(self), narrow(&jump), old),
             false => onset_of::<3>(&Surface::new(self), jump, old),
         }
+    }
+
+    /// Traction and slopes (n, t) of a point that is held elastic.
+    pub(super) fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
+        let (traction, [normal, tangential]) = held::<3>(&Surface::new(self), jump, old);
+        (traction, [normal, tangential, tangential])
+    }
+
+    /// Variables of the law; the published one has W alone.
+    pub(super) fn variables(&self) -> &'static [LawVariable] {
+        match self.unloading {
+            Unloading::Closing => &VARIABLES,
+            Unloading::Plastic => &VARIABLES[..=WORK],
+        }
+    }
+
+    /// Stored energy [stress × length]: that of the elastic law, ties across a crack included.
+    pub(super) fn stored(&self, state: &State) -> f64 {
+        let surface = Surface::new(self);
+        let tau = shear(&state.traction);
+        Crack::of(&surface, state).energy(&surface, state.traction[N]) + 0.5 * tau * tau / surface.kt
+    }
+
+    /// Traction of the elastic law at a jump, an irreversible jump (d of a crack that closes) and variables of the law.
+    pub(super) fn elastic_at(&self, jump: Local, jump_plastic: Local, own: [f64; OWN]) -> Local {
+        let surface = Surface::new(self);
+        let elastic = jump - jump_plastic;
+        let mut traction = stiff(&surface, elastic);
+        if surface.closes {
+            // intact up to the place where the faces touch
+            let state = State { jump: jump_plastic, jump_plastic, own, ..State::default() };
+            let crack = Crack::of(&surface, &state);
+            traction[N] = match surface.is_spent(own[WORK]) && elastic[N] > 0.0 {
+                true => 0.0,
+                false => crack.predict(&surface, traction[N], true).sigma,
+            };
+        }
+        traction
     }
 
     /// One backward Euler step by the safe nested solver alone: traction, W. What Newton is checked against.

@@ -11,7 +11,8 @@
 //!
 //! Outer: W − W_n − ω(W) = 0, negative at W_n. Both roots are bracketed.
 
-use super::flow::{Answer, Mode, Trial, normal_equation, without_dilatancy, work_of_step};
+use super::flow::{Answer, Trial, normal_equation, without_dilatancy, work_of_step};
+use super::mode::{Mode, RIDING_SLOPE};
 use super::surface::{Hyperbola, Surface};
 
 /// Steps of the root finder; it halves the bracket at least every other step.
@@ -49,8 +50,8 @@ pub(super) fn return_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> (M
             let tau = root_of_normal_equation(surface, Mode::Tension, trial, now, 0.0, hi);
             (Mode::Tension, now.sigma(tau, now.root(tau)).clamp(0.0, now.chi), tau)
         }
-        Mode::Compression if without_dilatancy(surface, trial.sigma, now) => {
-            (Mode::Compression, trial.sigma, now.tau(trial.sigma))
+        Mode::Compression if without_dilatancy(surface, trial.sigma_faces, now) => {
+            (Mode::Compression, trial.sigma_faces, now.tau(trial.sigma_faces))
         }
         Mode::Compression => {
             let lo = now.tau(0.0).min(trial.tau);
@@ -72,7 +73,14 @@ pub(super) fn mode_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> Mode
         return Mode::Tension;
     }
     // f at 0⁻ is f_c, or nothing without dilatancy
-    let to_the_right = if now.fc == 0.0 { trial.sigma >= 0.0 } else { back * now.fc <= trial.sigma * tau0 };
+    let to_the_right = if now.fc == 0.0 {
+        trial.sigma_faces >= 0.0
+    } else if !surface.closes {
+        back * now.fc <= trial.sigma_faces * tau0
+    } else {
+        let most = surface.kn / surface.kt * (trial.tau - tau0) * RIDING_SLOPE;
+        most <= trial.sigma_faces || (tau0 > 0.0 && back * now.fc <= trial.sigma_faces * tau0)
+    };
     match to_the_right {
         true if tau0 > 0.0 => Mode::Sliding,
         true => Mode::Open,
@@ -88,11 +96,15 @@ fn root_of_normal_equation(
     lo: f64,
     hi: f64,
 ) -> f64 {
-    // with b = 0 the vertex is a corner, E₁ has the root τ = 0 always: divide it out
-    let corner = now.b == 0.0 && lo == 0.0;
+    // with b = 0 the vertex is a corner, E₁ has the root τ = 0 always, as where the flow is bounded: divide it out
+    let bounded = surface.closes && mode == Mode::Compression;
+    let corner = lo == 0.0 && (now.b == 0.0 || bounded);
     let equation = |tau: f64| normal_equation(surface, mode, trial, now, tau);
     let at_lo = match corner {
-        true => now.chi - trial.sigma + surface.kn / surface.kt * trial.tau * now.t,
+        true => {
+            let slope = if bounded { RIDING_SLOPE } else { now.t };
+            now.chi - trial.normal(mode) + surface.kn / surface.kt * trial.tau * slope
+        }
         false => equation(lo),
     };
     let at_hi = equation(hi);

@@ -3,7 +3,8 @@
 //! The mode is that of the return at the old W. An answer is accepted only if it satisfies the equations and every
 //! sign its mode promises; anything else is solved again, safely.
 
-use super::flow::{Answer, Mode, ReturnEquations, Trial, equations, without_dilatancy};
+use super::flow::{Answer, ReturnEquations, Trial, equations, without_dilatancy};
+use super::mode::Mode;
 use super::nested::{mode_at, solve_nested};
 use super::surface::Surface;
 
@@ -25,7 +26,7 @@ pub(super) fn solve_newton(surface: &Surface, trial: &Trial, tau_near: f64) -> O
             (start.chi == 0.0).then_some(Answer { mode: Mode::Open, sigma: 0.0, tau: 0.0, work: trial.work })
         }
         Mode::Tension if trial.tau == 0.0 => newton_on_work(surface, trial, Mode::Tension),
-        Mode::Compression if without_dilatancy(surface, trial.sigma, &start) => {
+        Mode::Compression if without_dilatancy(surface, trial.sigma_faces, &start) => {
             newton_on_work(surface, trial, Mode::Compression)
         }
         Mode::Sliding => newton_on_work(surface, trial, Mode::Sliding),
@@ -61,9 +62,9 @@ fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -
             let sigma = now.sigma(tau, now.root(tau));
             let promised = match mode {
                 Mode::Tension => sigma > 0.0 && now.chi > 0.0,
-                _ => sigma < 0.0 && !without_dilatancy(surface, trial.sigma, &now),
+                _ => sigma < 0.0 && !without_dilatancy(surface, trial.sigma_faces, &now),
             };
-            return (promised && sigma <= trial.sigma).then_some(Answer { mode, sigma, tau, work: w });
+            return (promised && sigma <= trial.normal(mode)).then_some(Answer { mode, sigma, tau, work: w });
         }
     }
     None
@@ -78,7 +79,7 @@ fn newton_on_work(surface: &Surface, trial: &Trial, mode: Mode) -> Option<Answer
             let over = trial.sigma - now.chi;
             (now.chi * over / surface.kn, now.dchi * (over - now.chi) / surface.kn)
         } else {
-            let sigma = if mode == Mode::Sliding { 0.0 } else { trial.sigma };
+            let sigma = if mode == Mode::Sliding { 0.0 } else { trial.sigma_faces };
             let tau = now.tau(sigma);
             if tau <= 0.0 {
                 return None;
@@ -105,9 +106,9 @@ fn accept_on_work(surface: &Surface, trial: &Trial, mode: Mode, w: f64) -> Optio
     let answer = match mode {
         Mode::Tension => Answer { mode, sigma: now.chi, tau: 0.0, work: w },
         Mode::Sliding => Answer { mode, sigma: 0.0, tau: now.tau(0.0), work: w },
-        _ => Answer { mode, sigma: trial.sigma, tau: now.tau(trial.sigma), work: w },
+        _ => Answer { mode, sigma: trial.sigma_faces, tau: now.tau(trial.sigma_faces), work: w },
     };
     let same_mode = mode_at(surface, trial, &now) == mode;
-    let same_flow = mode != Mode::Compression || without_dilatancy(surface, trial.sigma, &now);
+    let same_flow = mode != Mode::Compression || without_dilatancy(surface, trial.sigma_faces, &now);
     (same_mode && same_flow && answer.tau <= trial.tau).then_some(answer)
 }

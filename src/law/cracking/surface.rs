@@ -14,7 +14,8 @@
 //!
 //! The root form of F has one branch only; the squared form has a second one that means nothing.
 
-use super::Cracking;
+use super::mode::{Mode, RIDING_SLOPE};
+use super::parameters::{Cracking, Unloading};
 
 /// Strength of an interface at some stage of cracking.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +40,8 @@ pub(super) struct Surface {
     pub per_gf_i: f64,   // 1/G_I, 0 if there is no tensile strength to lose
     pub per_gf_iia: f64, // 1/G_II, 0 if there is no cohesion to lose
     pub sigma_dil: f64,
+    /// Cracks close (`crack`).
+    pub closes: bool,
     pub e_chi: f64,
     e_c: f64,
     e_t: f64,
@@ -93,6 +96,7 @@ impl Surface {
             per_gf_i: inverse(law.tensile_strength, law.fracture_energy_i),
             per_gf_iia: inverse(law.cohesion, law.fracture_energy_iia),
             sigma_dil: law.dilatancy_stress,
+            closes: law.unloading == Unloading::Closing,
             e_chi: decay(law.alpha_tensile_strength),
             e_c: decay(law.alpha_cohesion),
             e_t: decay(law.alpha_tan_friction),
@@ -131,6 +135,28 @@ impl Surface {
         }
         let (left, slope) = shape(-sigma / self.sigma_dil, self.e_dil);
         (left, slope / self.sigma_dil)
+    }
+
+    /// The normal flow s t f of a mode at a shear τ, within the slope of riding.
+    pub fn bounded(&self, mode: Mode, flow: f64, tau: f64) -> f64 {
+        if self.closes && mode == Mode::Compression { flow.min(RIDING_SLOPE * tau) } else { flow }
+    }
+
+    /// True once nothing ties the faces: W ≥ G_I, or no tensile strength at all.
+    pub fn is_spent(&self, work: f64) -> bool {
+        self.chi0 == 0.0 || work * self.per_gf_i >= 1.0
+    }
+
+    /// The work of a step, G_I where it misses that by rounding: √χ would be left as shear.
+    pub fn settled(&self, work: f64) -> f64 {
+        let xi = work * self.per_gf_i;
+        if (1.0 - 4.0 * f64::EPSILON..1.0).contains(&xi) { self.all_of_mode_i() } else { work }
+    }
+
+    /// G_I, the least work that leaves no tensile strength.
+    pub fn all_of_mode_i(&self) -> f64 {
+        let spent = 1.0 / self.per_gf_i;
+        if self.is_spent(spent) { spent } else { spent.next_up() }
     }
 
     /// Fastest loss of strength per irreversible jump, of the strength (α = 0) [1 / length].

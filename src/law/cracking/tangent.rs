@@ -6,7 +6,8 @@
 
 use nalgebra::Matrix3;
 
-use super::flow::{Answer, Mode, Trial, equations, without_dilatancy};
+use super::flow::{Answer, Trial, equations, without_dilatancy};
+use super::mode::Mode;
 use super::surface::Surface;
 
 /// The derivative for τ_t ≥ 0.
@@ -34,14 +35,13 @@ pub(super) fn linearise(surface: &Surface, trial: &Trial, answer: &Answer) -> Ma
             ])
         }
         Mode::Sliding => at_fixed_sigma(surface, trial, answer, 0.0),
-        Mode::Compression if without_dilatancy(surface, trial.sigma, &now) => {
+        Mode::Compression if without_dilatancy(surface, trial.sigma_faces, &now) => {
             at_fixed_sigma(surface, trial, answer, 1.0)
         }
         Mode::Tension | Mode::Compression => {
             let eq = equations(surface, mode, trial, &now, tau, work);
-            let f = if mode == Mode::Tension { 1.0 } else { surface.dilatancy(sigma).0 * now.fc };
             // columns σ_t, τ_t, W_n
-            let normal = [-tau, surface.kn / surface.kt * eq.s * now.t * f, 0.0];
+            let normal = [-tau, surface.kn / surface.kt * eq.flow, 0.0];
             let omega = match mode {
                 Mode::Tension => [sigma / surface.kn, tau / surface.kt],
                 _ => [0.0, now.shear_above_friction(tau) / surface.kt],
