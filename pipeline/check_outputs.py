@@ -1,10 +1,11 @@
 """Check the results of one scene from outside, with programs that know nothing of midplane.
 
 Every VTU is read by meshio and by VTK (through pyvista), and both must find the same points, cells and
-arrays, of the shapes and names the README promises, and finite. The .pvd must name exactly the files there
-are, history.csv must hold a row per increment, and its energies must be right. Then statics at the last
-increment: the loads and reactions of the whole model balance, and so do those of each subdomain together with
-the tractions of its interfaces, which are integrated here from the VTUs.
+arrays, of the shapes and names the README promises, and finite. Faces of cracks and of Coulomb joints that are
+apart must not press on each other. The .pvd must name exactly the files there are, history.csv must hold a row
+per increment, and its energies must be right. Then statics at the last increment: the loads and reactions of
+the whole model balance, and so do those of each subdomain together with the tractions of its interfaces, which
+are integrated here from the VTUs.
 
 One line per scene if all is well; otherwise a line per fault, and exit code 1.
 """
@@ -21,16 +22,18 @@ import numpy as np
 import pyvista
 
 from energies import check_energies
+from joints import entry_of
 from statics import check_balance
 
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6}
 SUBDOMAIN_CELLS = {"stress": 6, "principal_stress": 3}
+LAW_VARIABLES = ("fracture_work", "opening", "bridge_stiffness", "slip_open")  # of all laws, none ever negative
 INTERFACE_POINTS = {
     "jump": 2,
     "jump_plastic": 2,
     "traction": 2,
-    "fracture_work": 1,
+    **dict.fromkeys(LAW_VARIABLES, 1),
     "status": 1,
     "length": 1,
     "normal": 3,
@@ -41,10 +44,13 @@ MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
 ENERGY_BALANCE = 1e-8  # where geo/<scene>/check.args says nothing: work − stored − dissipated − released, of the largest of them so far
 SUMMARY_KEYS = {"title", "sizes", "solution", "equilibrium", "time", "warnings"}
-STATUSES = range(5)
+STATUSES = range(7)
+OPEN, CLOSED, TIED = 4, 5, 6  # free of stress; the faces touch; open, but not free
 LENGTH = 1e-9  # what the law points leave out of an interface
 KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
 ROUND_OFF = 1e-12  # of the quantity compared
+GAP = 1e-9  # of the largest jump or irreversible jump: less is rounding
+NOTHING = 1e-9  # of the largest traction of an interface: less is rounding
 
 
 class Faults(list):
@@ -128,7 +134,7 @@ def check_subdomain(path, grid, faults):
     faults.expect(not yz.any() and not xz.any(), f"{path}: stress yz or xz in a plane scene")
 
 
-def check_interface(path, grid, faults):
+def check_interface(path, grid, law, faults):
     """Law points in order along the mid-plane, with lengths, unit normals and known statuses."""
     good = check_arrays(path, "point", grid.point_data, INTERFACE_POINTS, faults)
     good &= check_arrays(path, "cell", grid.cell_data, {}, faults)
@@ -137,8 +143,31 @@ def check_interface(path, grid, faults):
     faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines")
     faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
     faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in 0 ... {STATUSES[-1]}")
+    for name in LAW_VARIABLES:
+        faults.expect((grid[name] >= 0).all(), f"{path}: {name} is negative")
+    if law["type"] != "elastic":
+        check_faces(path, grid, faults)
     lengths = np.linalg.norm(grid["normal"], axis=1)
     faults.expect(np.abs(lengths - 1).max() <= ROUND_OFF, f"{path}: a normal is not of unit length")
+
+
+def check_faces(path, grid, faults):
+    """Open faces carry no traction, closed ones no tension, and faces that are apart no compression. For every law but the
+    elastic one these are apart where the normal jump is above its irreversible part."""
+    status, traction = grid["status"], grid["traction"]
+    sigma = traction[:, 0]
+    gap = grid["jump"][:, 0] - grid["jump_plastic"][:, 0]
+    nothing = NOTHING * np.abs(traction).max(initial=0.0)
+    narrow = GAP * max(np.abs(grid[name]).max(initial=0.0) for name in ("jump", "jump_plastic"))
+
+    def expect_none(wrong, text):
+        faults.expect(not wrong.any(), f"{path}: {text} at {wrong.sum()} of {len(wrong)} law points")
+
+    expect_none((status == OPEN) & (np.abs(traction) > nothing).any(axis=1), "traction across open faces")
+    expect_none((status == OPEN) & (gap < -narrow), "open faces that overlap")
+    expect_none((status == CLOSED) & (sigma > nothing), "tension across closed faces")
+    expect_none((status == TIED) & (gap < -narrow), "tied faces that overlap")
+    expect_none((gap > narrow) & (sigma < -nothing), "compression through a gap")
 
 
 def check_midplane(path, faults):
@@ -251,7 +280,7 @@ def check(results, scene, energy, expectations, faults):
         if name in scene["subdomains"]:
             check_subdomain(path, grid, faults)
         else:
-            check_interface(path, grid, faults)
+            check_interface(path, grid, entry_of(scene, name)["law"], faults)
             interfaces.setdefault(int(number), {})[name] = grid
     for path in results.glob("midplane/*.vtu"):
         check_midplane(path, faults)

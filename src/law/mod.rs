@@ -189,7 +189,11 @@ impl Law {
                 jump_plastic[i] -= initial_traction[i] / stiffness; // no stiffness: the elastic law carries t₀ alone
             }
         }
-        Ok(State { traction: initial_traction + pressed, jump_plastic, ..State::default() })
+        let own = match self {
+            Law::Cracking(law) => law.intact(),
+            _ => [0.0; OWN],
+        };
+        Ok(State { traction: initial_traction + pressed, jump_plastic, own, ..State::default() })
     }
 
     /// The state at a given jump, irreversible jump and variables of its own; `Err` if the law cannot carry it.

@@ -26,7 +26,7 @@ pub struct State {
     pub jump_plastic: Local,
     /// Variables of the law itself, each at its place (`Law::variables`); zero where the law has none.
     pub own: [f64; OWN],
-    /// 0 elastic or stick, 1 T, 2 C or slip, 3 Z, 4 A or open.
+    /// 0 elastic or stick, 1 T, 2 C or slip, 3 Z, 4 A or open; where cracks close, elastic once cracked: 5 closed, 6 open and tied.
     pub status: u8,
 }
 

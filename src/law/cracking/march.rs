@@ -28,6 +28,7 @@ use super::variables::WORK;
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Weight of the first stage per its own step: (1 − γ)/γ.
 const FIRST: f64 = (1.0 - GAMMA) / GAMMA;
+
 /// A point of the way.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WayPoint<const D: usize> {

@@ -124,6 +124,13 @@ impl Cracking {
         (traction, [normal, tangential, tangential])
     }
 
+    /// Variables of an intact point.
+    pub(super) fn intact(&self) -> [f64; OWN] {
+        let (surface, mut state) = (Surface::new(self), State::default());
+        Crack::closed(&surface).store(&surface, &mut state);
+        state.own
+    }
+
     /// Variables of the law; the published one has W alone.
     pub(super) fn variables(&self) -> &'static [LawVariable] {
         match self.unloading {
