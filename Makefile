@@ -75,11 +75,14 @@ results/shear/.example2: pipeline/example2.py pipeline/history.py pipeline/page.
 	done
 	@touch $@
 
-law: results/law/shear.png  ## drive one point of the cracking law along geo/shear/path.json and draw it
-results/law/shear.png: geo/shear/scene.json geo/shear/path.json pipeline/law_path.py $(MIDPLANE) $(VENV)
+law: $(addprefix results/law/,shear.png closing.png)  ## drive one point of the cracking law along geo/{shear,closing}/path.json and draw it
+results/law/shear.png: SAYS := --title="A crack shears and loses its strength" --subtitle="one point of Example 2 under −5 MPa"
+results/law/closing.png: SAYS := --title="A crack opens, closes, is sheared under pressure, and opens again" \
+    --subtitle="one point of Example 2 along geo/closing/path.json; the numbers follow the path"
+results/law/%.png: geo/%/path.json geo/shear/scene.json pipeline/law_path.py pipeline/page.py $(MIDPLANE) $(VENV)
 	@mkdir -p results/law
-	$(MIDPLANE) law geo/shear joint geo/shear/path.json --tolerance 1e-6 > results/law/shear.csv
-	$(PYTHON) pipeline/law_path.py results/law/shear.csv --scene geo/shear/scene.json --interface joint -o $@
+	$(MIDPLANE) law geo/shear joint $< --tolerance 1e-6 > results/law/$*.csv
+	$(PYTHON) pipeline/law_path.py results/law/$*.csv --scene geo/shear/scene.json --interface joint $(SAYS) -o $@
 
 check-%: $(MIDPLANE) $(VENV)  ## look at the joints of a scene before it is solved: results/<scene>/check/*.png
 	$(MIDPLANE) check geo/$* -o results/$* --plot
@@ -203,6 +206,7 @@ docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/four_blocks/pictures/displacement.png docs/four_blocks.png
 	cp results/four_blocks/check/joints~sw~nw.png docs/four_blocks_check.png
 	cp results/law/shear.png docs/law_shear.png
+	cp results/law/closing.png docs/law_closing.png
 	cp results/shear/pictures/example2.png docs/shear_example2.png
 	cp results/shear_box/pictures/traction_joint.png docs/shear_box_traction.png
 	cp results/bar/pictures/history.png docs/bar_path.png

@@ -152,7 +152,7 @@ def check_interface(path, grid, law, faults):
 
 
 def check_faces(path, grid, faults):
-    """Open faces carry no traction, closed ones no tension, and faces that are apart no compression. For every law but the
+    """Open faces carry no traction, closed ones no tension, and faces that are apart no compression. In every law but the
     elastic one these are apart where the normal jump is above its irreversible part."""
     status, traction = grid["status"], grid["traction"]
     sigma = traction[:, 0]

@@ -1,29 +1,43 @@
 #!/usr/bin/env python3
-"""Draw the path of one law point: on the evolving cracking surface (paper, figure 3) and as traction-jump curves.
+"""Draw the path of one law point: traction-jump curves, the evolving cracking surface (paper, figure 3), the gap.
 
-Reads the CSV that `midplane law SCENE INTERFACE PATH.json` prints. With --scene the fracture energies of that
-interface scale the colours (1 is G_I spent); without it the colours are the work itself.
+Reads the CSV that `midplane law SCENE INTERFACE PATH.json` prints. Colours tell the status, numbers the ends of the
+path's segments. The gap, r_n - r_n^p, has a graph of its own where the faces part. With --scene the fracture energy
+of that interface scales the work of the surfaces (1 is G_I spent); without it they show the work itself.
 
     midplane law geo/shear joint path.json > path.csv
-    python3 pipeline/law_path.py path.csv --scene geo/shear/scene.json --interface joint -o path.png
-
-Needs numpy and matplotlib.
+    .venv/bin/python pipeline/law_path.py path.csv --scene geo/shear/scene.json --interface joint -o path.png
 """
 
 import argparse
 import json
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 
-STATUS = {0: "elastic or stick", 1: "T: tension", 2: "C: compression or slip", 3: "Z: σ held at 0", 4: "A: open"}
-COLOUR = {0: "0.6", 1: "tab:red", 2: "tab:blue", 3: "tab:purple", 4: "tab:green"}
+import page
+from page import BLUE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, sign
+
+OPEN, TIED = 4, 6
+STATUS = {
+    0: ("elastic or stick", GREY),
+    1: ("T: cracks in tension", VERMILLION),
+    2: ("C: cracks or slips, pressed", BLUE),
+    3: ("Z: slips at σ = 0", "#CC79A7"),
+    OPEN: ("open, free of stress", GREEN),
+    5: ("closed crack, elastic", INK),
+    TIED: ("open crack, tied, elastic", ORANGE),
+}
+WORK = LinearSegmentedColormap.from_list("work", ["#5E5E5A", "#D5D5D1"])  # surfaces, the later the paler
+SURFACES = 5
+TOGETHER = 0.03  # of a graph: ends of segments that are closer share a label
+WIDTH, HEIGHT = page.LEFT + page.WIDTH + page.RIGHT, 5.6  # of the page [inch]
+KEY = 0.5  # room for the key [inch]
+FONT = 8.0  # of the numbers [points]
 
 
 def read(csv):
@@ -32,13 +46,20 @@ def read(csv):
     return np.atleast_1d(rows)
 
 
-def energies(scene, interface):
-    """Fracture energies (mode I, mode IIa) of an interface of a scene, None where there are none."""
+def energy_i(scene, interface):
+    """Fracture energy in mode I of an interface of a scene, None where there is none."""
     interfaces = json.loads(Path(scene).read_text())["interfaces"]
     if interface not in interfaces:
         raise SystemExit(f"{scene}: no interface \"{interface}\"; there is {', '.join(interfaces)}")
-    law = interfaces[interface]["law"]
-    return law.get("fracture_energy_i"), law.get("fracture_energy_iia")
+    return interfaces[interface]["law"].get("fracture_energy_i")
+
+
+def scaled(values, unit):
+    """Lengths in a unit that suits them, and its name: metres as mm or µm."""
+    largest = np.abs(values).max()
+    if unit != "m" or largest >= 1 or largest == 0:
+        return values, unit
+    return (values * 1e3, "mm") if largest >= 1e-3 else (values * 1e6, "µm")
 
 
 def hyperbola(row, sigma):
@@ -58,50 +79,152 @@ def stages(rows, count):
     return sorted({int(np.argmin(np.abs(lost - value))) for value in wanted})
 
 
-def draw_stress_plane(axes, rows, work, norm, cmap):
-    """The surfaces at a few stages, and the path coloured by the work spent."""
+def trace(axes, x, y, status):
+    """A line through the rows, every piece in the colour of what the point does on the way to its end."""
+    for kind, (_, colour) in STATUS.items():
+        ends = np.flatnonzero(status[1:] == kind) + 1
+        for run in np.split(ends, np.flatnonzero(np.diff(ends) > 1) + 1) if len(ends) else ():
+            way = slice(run[0] - 1, run[-1] + 1)
+            axes.plot(x[way], y[way], color=colour, linewidth=1.9, solid_capstyle="round", zorder=3)
+
+
+def listed(numbers):
+    """0, 3–5"""
+    runs = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    return ", ".join(f"{run[0]}–{run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs)
+
+
+def number_ends(axes, rows, x, y):
+    """Dots at the start and at the ends of the segments, numbered; those at one place share a label."""
+    ends = np.flatnonzero(rows["s"] == np.round(rows["s"]))
+    axes.autoscale_view()
+    path = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y])))
+    places = {}
+    for number, end in enumerate(ends):
+        near = (first for first in places if np.hypot(*(path[end] - path[first])) < TOGETHER)
+        places.setdefault(next(near, end), []).append(number)
+    fine = np.linspace(path[:-1], path[1:], 20).reshape(-1, 2)
+    taken = np.concatenate([fine, np.repeat(path[list(places)], 50, axis=0)])  # a dot is worse than a line
+    for first, numbers in places.items():
+        axes.plot(x[first], y[first], "o", color=INK, markersize=3.6, zorder=5, clip_on=False)
+        taken = place_label(axes, path[first], listed(numbers), taken)
+
+
+def place_label(axes, dot, text, taken):
+    """A label at the corner of its dot where the fewest points are taken; all that are taken then. In parts of the axes."""
+    point = 1 / (72 * axes.get_window_extent().size / axes.figure.dpi)  # in parts of the axes
+    half = FONT * np.array([0.3 * len(text), 0.55]) * point
+
+    def middle(side):
+        return dot + side * (half + 2.5 * point)
+
+    def crowd(side):
+        away = np.abs(taken - middle(side)) / half
+        outside = (np.abs(middle(side) - 0.5) + half > 0.52).any()
+        return (away < 1).all(axis=1).sum() + 0.1 * (away < 2).all(axis=1).sum() + 1000 * outside
+
+    sides = [np.array(side) for side in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
+    best = middle(min(sides, key=crowd))
+    look = {"ha": "center", "va": "center", "fontweight": "bold", "fontsize": FONT, "zorder": 6}
+    halo = [withStroke(linewidth=1.5, foreground="white")]
+    axes.text(*best, text, transform=axes.transAxes, path_effects=halo, **look)
+    box = np.stack(np.meshgrid(*np.linspace(best - half, best + half, 8).T), axis=-1).reshape(-1, 2)
+    return np.concatenate([taken, np.repeat(box, 20, axis=0)])
+
+
+def cross(axes):
+    """The two zero lines."""
+    axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
+    axes.axvline(0, color=PALE, linewidth=0.7, zorder=0)
+
+
+def draw_stress_plane(axes, rows, work, label, stress):
+    """The surfaces at a few stages, and the path."""
     sigma, tau = rows["traction_n"], rows["traction_t"]
     chi = np.nan_to_num(rows["tensile_strength"]).max()
-    reach = max(sigma.max() - sigma.min(), np.abs(tau).max(), chi, 1e-300)
-    low, high = min(sigma.min(), 0) - 0.25 * reach, max(sigma.max(), chi) + 0.05 * reach
+    reach = max(np.ptp(sigma), np.abs(tau).max(), chi, 1e-300)
+    low, high = min(sigma.min(), 0) - 0.2 * reach, max(sigma.max(), chi) + 0.08 * reach
+    limit = 1.15 * max(np.abs(tau).max(), 0.6 * reach)
+    bottom = -limit if tau.min() < -0.02 * limit else -0.12 * limit
+    axes.set(xlim=(low, high), xlabel=f"normal traction σ [{stress}]")
+    axes.set(ylim=(bottom, limit), ylabel=f"shear traction τ [{stress}]")
+    cross(axes)
     if np.isfinite(rows["cohesion"]).all():
-        for k in stages(rows, 6):
+        norm = Normalize(0, max(work.max(), 1e-300))
+        for k in stages(rows, SURFACES):
             row = rows[k]
             points = row["tensile_strength"] - (row["tensile_strength"] - low) * np.linspace(0, 1, 400) ** 2
-            limit = hyperbola(row, points)
-            for side in (limit, -limit):
-                axes.plot(points, side, color=cmap(norm(work[k])), lw=1.0, alpha=0.85, zorder=1)
-    points = np.column_stack([sigma, tau])
-    line = LineCollection(np.stack([points[:-1], points[1:]], axis=1), cmap=cmap, norm=norm, lw=2.6, zorder=3)
-    line.set_array(0.5 * (work[:-1] + work[1:]))
-    axes.add_collection(line)
-    axes.plot(sigma[0], tau[0], "o", color="k", ms=5, zorder=4, label="start")
-    axes.plot(sigma[-1], tau[-1], "s", color="k", ms=5, zorder=4, label="end")
-    axes.axhline(0, color="0.85", lw=0.8, zorder=0)
-    axes.axvline(0, color="0.85", lw=0.8, zorder=0)
-    limit = 1.12 * max(np.abs(tau).max(), 0.6 * reach)
-    bottom = -limit if tau.min() < -0.02 * limit else -0.12 * limit
-    axes.set(xlim=(low, high), ylim=(bottom, limit), xlabel="normal traction σ", ylabel="shear traction τ")
-    axes.set_title("path on the cracking surface")
-    axes.legend(loc="upper right", frameon=False)
-    return line
+            both = np.concatenate([-hyperbola(row, points)[::-1], hyperbola(row, points)])
+            axes.plot(np.concatenate([points[::-1], points]), both, color=WORK(norm(work[k])), linewidth=1.0, zorder=1)
+        if work.max() > 0:
+            scale = plt.cm.ScalarMappable(norm, WORK)
+            bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0.64, 0.95, 0.34, 0.025)), orientation="horizontal")
+            bar.set_label(label, labelpad=2)
+            bar.outline.set_visible(False)
+            bar.ax.xaxis.set_major_locator(MaxNLocator(2))
+            bar.ax.xaxis.set_major_formatter("{x:g}")
+            bar.ax.tick_params(length=0, pad=2)
+    trace(axes, sigma, tau, rows["status"])
+    number_ends(axes, rows, sigma, tau)
 
 
-def draw_curve(axes, rows, component, name, symbol):
-    """One traction against its jump, coloured by what the point does on the way to each row."""
-    jump, traction = rows[f"jump_{component}"], rows[f"traction_{component}"]
-    status = rows["status"].astype(int)
-    axes.axhline(0, color="0.85", lw=0.8, zorder=0)
-    for kind, colour in COLOUR.items():
-        x, y = np.full((2, 3 * len(jump)), np.nan)
-        for k in np.flatnonzero(status[1:] == kind) + 1:
-            x[3 * k : 3 * k + 2], y[3 * k : 3 * k + 2] = jump[k - 1 : k + 1], traction[k - 1 : k + 1]
-        if np.isfinite(x).any():
-            axes.plot(x, y, color=colour, lw=1.8, label=STATUS[kind])
-    if len(jump) <= 60:
-        axes.plot(jump, traction, ".", color="k", ms=3, zorder=3)
-    axes.ticklabel_format(axis="x", style="sci", scilimits=(-2, 3))
-    axes.set(xlabel=f"{name} jump", ylabel=f"{name} traction {symbol}")
+def draw_curve(axes, rows, component, names, units):
+    """One traction against its jump."""
+    (stress, length), (traction, jump) = units, names
+    x, length = scaled(rows[f"jump_{component}"], length)
+    y = rows[f"traction_{component}"]
+    cross(axes)
+    trace(axes, x, y, rows["status"])
+    axes.margins(0.08, 0.12)
+    axes.locator_params(axis="x", nbins=6)
+    axes.ticklabel_format(axis="x", scilimits=(-3, 4), useMathText=True)
+    axes.set(xlabel=f"{jump} [{length}]", ylabel=f"{traction} [{stress}]")
+    number_ends(axes, rows, x, y)
+
+
+def gap_of(rows):
+    """r_n - r_n^p: below zero the faces press on each other."""
+    return rows["jump_n"] - rows["jump_n_plastic"]
+
+
+def draw_gap(axes, rows, length):
+    """The gap along the path, and the opening that the law keeps; the numbers are those of the other graphs."""
+    (gap, opening), length = scaled(np.stack([gap_of(rows), rows["opening"]]), length)
+    axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
+    kept = opening - gap
+    if opening.any() and kept.max() > TOGETHER * gap.max():
+        axes.plot(rows["s"], opening, color=INK, linewidth=0.9, linestyle=(0, (4, 3)), zorder=2)
+        last = kept.argmax()
+        here = {"xytext": (0, 3), "textcoords": "offset points", "ha": "right"}
+        axes.annotate("opening $o$ kept", (rows["s"][last], opening[last]), **here)
+    trace(axes, rows["s"], gap, rows["status"])
+    axes.set(xlabel="point of the path", ylabel=f"gap [{length}]", xlim=(0, rows["s"][-1]))
+    axes.set_xticks(np.arange(int(rows["s"][-1]) + 1))
+    axes.grid(axis="x")
+
+
+def draw(rows, work, label, units):
+    """The page: curves, surface and, where the faces part, the gap."""
+    parts = np.isin(rows["status"], (OPEN, TIED)).any() and gap_of(rows).max() > 0
+    rooms = [["n", "t"], ["plane", "gap"]] if parts else [["plane", "n"], ["plane", "t"]]
+    figure, axes = plt.subplot_mosaic(rooms, figsize=(WIDTH, HEIGHT))
+    left, right = page.LEFT / WIDTH, 1 - page.RIGHT / WIDTH
+    bottom, top = (KEY + page.BOTTOM) / HEIGHT, 1 - page.TOP / HEIGHT
+    figure.subplots_adjust(left=left, right=right, bottom=bottom, top=top, wspace=0.28, hspace=0.3)
+    draw_curve(axes["n"], rows, "n", ("normal traction σ", "normal jump $u_n$"), units)
+    draw_curve(axes["t"], rows, "t", ("shear traction τ", "shear jump $u_t$"), units)
+    draw_stress_plane(axes["plane"], rows, work, label, units[0])
+    if parts:
+        draw_gap(axes["gap"], rows, units[1])
+    seen = [STATUS[kind] for kind in STATUS if (rows["status"][1:] == kind).any()]
+    handles = [sign(text, colour, linewidth=2.4) for text, colour in seen]
+    figure.legend(handles=handles, ncols=3, loc="lower left", bbox_to_anchor=(left, 0), borderaxespad=0.3)
+    return figure, axes[rooms[0][0]]
 
 
 def main():
@@ -109,8 +232,11 @@ def main():
     parser.add_argument("csv", help="the rows of the path; - reads standard input")
     parser.add_argument("--scene", help="scene.json with the law of the point")
     parser.add_argument("--interface", help="name of the interface in that scene")
-    parser.add_argument("-o", "--output", help="picture to write (default: the CSV's name with .png)")
-    parser.add_argument("--title", default="", help="title of the picture")
+    parser.add_argument("-o", "--output", type=Path, help="picture to write (default: the CSV's name with .png)")
+    parser.add_argument("--title", default="One point of a law", help="title of the picture")
+    parser.add_argument("--subtitle", default="", help="what the picture shows")
+    units = {"nargs": 2, "metavar": ("STRESS", "LENGTH"), "default": ("MPa", "m")}
+    parser.add_argument("--units", help="what the numbers mean, default: MPa m", **units)
     arguments = parser.parse_args()
     if bool(arguments.scene) != bool(arguments.interface):
         parser.error("--scene and --interface go together")
@@ -118,29 +244,17 @@ def main():
     rows = read("/dev/stdin" if arguments.csv == "-" else arguments.csv)
     if len(rows) < 2:
         raise SystemExit(f"{arguments.csv}: a path needs two rows or more")
-    scale, label = 1.0, "fracture work $W$"
+    stress, length = arguments.units
+    scale, label = 1.0, f"work W [{stress}·{length}]"
     if arguments.scene:
-        mode_i, _ = energies(arguments.scene, arguments.interface)
+        mode_i = energy_i(arguments.scene, arguments.interface)
         if mode_i:
-            scale, label = mode_i, "fracture work $W / G_I$"
-    work = rows["fracture_work"] / scale
-    cmap, norm = matplotlib.colormaps["viridis"], Normalize(0, max(work.max(), 1e-300))
-
-    figure = plt.figure(figsize=(11, 5.2), layout="constrained")
-    grid = figure.add_gridspec(2, 2, width_ratios=(1.25, 1))
-    plane = figure.add_subplot(grid[:, 0])
-    line = draw_stress_plane(plane, rows, work, norm, cmap)
-    figure.colorbar(line, ax=plane, label=label, pad=0.02)
-    top, bottom = figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1])
-    draw_curve(top, rows, "n", "normal", "σ")
-    draw_curve(bottom, rows, "t", "shear", "τ")
-    handles = {text: handle for axes in (top, bottom) for handle, text in zip(*axes.get_legend_handles_labels())}
-    top.legend(handles.values(), handles.keys(), fontsize="small", frameon=False, ncols=2, loc="lower center",
-               bbox_to_anchor=(0.5, 1.0))
-    if arguments.title:
-        figure.suptitle(arguments.title)
-    output = arguments.output or ("path.png" if arguments.csv == "-" else str(Path(arguments.csv).with_suffix(".png")))
-    figure.savefig(output, dpi=150)
+            scale, label = mode_i, "work $W / G_I$"
+    plt.rcParams.update(page.STYLE)
+    figure, corner = draw(rows, rows["fracture_work"] / scale, label, arguments.units)
+    page.heading(corner, arguments.title, arguments.subtitle)
+    beside = Path("path" if arguments.csv == "-" else arguments.csv).with_suffix(".png")
+    page.save(figure, arguments.output or beside)
 
 
 if __name__ == "__main__":

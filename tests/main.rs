@@ -14,6 +14,7 @@ mod confinement;
 mod cook;
 mod coupling;
 mod curves;
+mod cycles;
 mod dcb;
 mod ends;
 mod energies;
