@@ -86,3 +86,34 @@ fn cracking_under_error_control(bencher: Bencher) {
     let old = opened();
     bencher.bench_local(|| respond(LAW, [2.1e-5, 1.05e-5], &old, Integration::Tolerance(1e-4)));
 }
+
+/// The same law where cracks close; the lines below repeat those above.
+const CLOSING: Cracking = Cracking { unloading: Unloading::Closing, ..LAW };
+
+fn opened_to_close() -> State {
+    respond(CLOSING, [2e-5, 1e-5], &State::default(), Integration::Tolerance(1e-6)).state
+}
+
+#[divan::bench]
+fn closing_elastic(bencher: Bencher) {
+    let old = opened_to_close();
+    bencher.bench_local(|| respond(CLOSING, [1.99e-5, 1e-5], &old, Integration::Tolerance(1e-4)));
+}
+
+#[divan::bench]
+fn closing_tension_newton(bencher: Bencher) {
+    let old = opened_to_close();
+    bencher.bench_local(|| respond(CLOSING, [2.1e-5, 1.05e-5], &old, Integration::BackwardEuler(1)));
+}
+
+#[divan::bench]
+fn closing_compression_newton(bencher: Bencher) {
+    let old = respond(CLOSING, [-5e-7, 2e-5], &State::default(), Integration::Tolerance(1e-6)).state;
+    bencher.bench_local(|| respond(CLOSING, [-5e-7, 2.1e-5], &old, Integration::BackwardEuler(1)));
+}
+
+#[divan::bench]
+fn closing_under_error_control(bencher: Bencher) {
+    let old = opened_to_close();
+    bencher.bench_local(|| respond(CLOSING, [2.1e-5, 1.05e-5], &old, Integration::Tolerance(1e-4)));
+}

@@ -1,4 +1,4 @@
-"""Curves of one point of the law `unloading: "closing"` in rate form (THEORY.md, THEORY_CLOSING.md): no return mapping.
+"""Curves of one point of the law `unloading: "closing"` in rate form (docs/CLOSING.md): no return mapping.
 
     closing.py c07_open_press_shear.json          integrates the curve of that name and writes the file
     closing.py --check c01.json c02.json ...      integrates the programs of stored curves and prints the differences
