@@ -57,7 +57,7 @@ pub(super) enum Line {
     Ridden,
 }
 
-/// What the law knows of the normal jump at a point of the way.
+/// State of the normal jump at a point of the way.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crack {
     pub regime: Regime,

@@ -284,7 +284,7 @@ impl<const D: usize> Slopes<D> {
         Slopes { across, traction: at.traction, work: at.work, dissipation, crack }
     }
 
-    /// What is known of the crack, with the gap after a change of jump.
+    /// Derivatives of the crack's state, with the gap after a change of jump.
     fn crack_after(&self, change: &SMatrix<f64, D, D>) -> CrackSlopes<D> {
         CrackSlopes { gap: self.crack.gap + change.row(N).transpose(), ..self.crack }
     }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Unloading {
-    /// What opened under tension closes freely, and the real gap is remembered.
+    /// Free closing of an opening made under tension, with memory of the real gap.
     #[default]
     Closing,
     /// The published law: unloads with K_N, irreversible jumps stay.

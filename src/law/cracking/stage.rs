@@ -60,13 +60,13 @@ impl<const D: usize> CrackSlopes<D> {
 
 /// Derivatives after a stage.
 pub(super) struct StageSlopes<const D: usize> {
-    /// Of the gap under the trial.
+    /// Derivative of the gap under the trial.
     pub gap: SVector<f64, D>,
-    /// Of the trial that the mode took.
+    /// Derivative of the trial that the mode took.
     pub trial: SMatrix<f64, D, D>,
     pub traction: SMatrix<f64, D, D>,
     pub work: SVector<f64, D>,
-    /// Of the work before.
+    /// Derivative of the work before.
     work_old: SVector<f64, D>,
     pub crack: CrackSlopes<D>,
 }

@@ -4,7 +4,7 @@
 //! B' = min(B + Σ w σ Δo, ½ σ' o')        a step pays for what it keeps; the anchor at its end allows no more
 //! ```
 //!
-//! What is kept is no dissipation yet; what was kept and is lost, is.
+//! Kept energy is no dissipation yet; it becomes one where it is lost.
 
 use nalgebra::SVector;
 
@@ -55,7 +55,7 @@ impl<const D: usize> Stage<D> {
             || (self.mode() != Mode::Elastic && self.crack.regime != Regime::Secant)
     }
 
-    /// What this stage alone adds to B.
+    /// Increase of B by this stage alone.
     pub fn kept_change(&self, surface: &Surface) -> f64 {
         if self.changes_kept() { self.crack.stored - self.kept(surface) } else { 0.0 }
     }
