@@ -83,7 +83,7 @@ fn pairing(bencher: Bencher, dofs: usize) {
 fn law_points(problem: &Problem, tractions: &mut Vec<f64>, stiffness: &mut Vec<f64>) {
     tractions.clear();
     stiffness.clear();
-    let law = &problem.interfaces[0].law;
+    let law = problem.interfaces[0].laws.kind();
     let points = problem.model.interfaces[0].coupling.points.len();
     for p in 0..points {
         let slip = 2e-6 * p as f64 / points as f64; // half of them slide

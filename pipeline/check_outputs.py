@@ -28,12 +28,10 @@ from statics import check_balance
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6}
 SUBDOMAIN_CELLS = {"stress": 6, "principal_stress": 3}
-LAW_VARIABLES = ("fracture_work", "opening", "bridge_stiffness", "slip_open")  # of all laws, none ever negative
 INTERFACE_POINTS = {
     "jump": 2,
     "jump_plastic": 2,
     "traction": 2,
-    **dict.fromkeys(LAW_VARIABLES, 1),
     "status": 1,
     "length": 1,
     "normal": 3,
@@ -43,7 +41,7 @@ MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 
 HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
 ENERGY_BALANCE = 1e-8  # where geo/<scene>/check.args says nothing: work − stored − dissipated − released, of the largest of them so far
-SUMMARY_KEYS = {"title", "sizes", "solution", "equilibrium", "time", "warnings"}
+SUMMARY_KEYS = {"title", "sizes", "variables", "solution", "equilibrium", "time", "warnings"}
 STATUSES = range(7)
 OPEN, CLOSED, TIED = 4, 5, 6  # free of stress; the faces touch; open, but not free
 LENGTH = 1e-9  # what the law points leave out of an interface
@@ -134,16 +132,18 @@ def check_subdomain(path, grid, faults):
     faults.expect(not yz.any() and not xz.any(), f"{path}: stress yz or xz in a plane scene")
 
 
-def check_interface(path, grid, law, faults):
-    """Law points in order along the mid-plane, with lengths, unit normals and known statuses."""
-    good = check_arrays(path, "point", grid.point_data, INTERFACE_POINTS, faults)
+def check_interface(path, grid, law, variables, faults):
+    """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none of
+    which is ever negative."""
+    wanted = INTERFACE_POINTS | dict.fromkeys(variables, 1)
+    good = check_arrays(path, "point", grid.point_data, wanted, faults)
     good &= check_arrays(path, "cell", grid.cell_data, {}, faults)
     if not good:
         return
     faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines")
     faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
     faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in 0 ... {STATUSES[-1]}")
-    for name in LAW_VARIABLES:
+    for name in variables:
         faults.expect((grid[name] >= 0).all(), f"{path}: {name} is negative")
     if law["type"] != "elastic":
         check_faces(path, grid, faults)
@@ -270,6 +270,7 @@ def check(results, scene, energy, expectations, faults):
         return ""
 
     rows = read_history(results / "history.csv", scene, faults)
+    variables = [variable["name"] for variable in summary["variables"]]
     interfaces, last, files = {}, 0, collection(collections[0], faults) if stored else []
     for path in files:
         name, _, number = path.stem.rpartition("_")
@@ -280,7 +281,7 @@ def check(results, scene, energy, expectations, faults):
         if name in scene["subdomains"]:
             check_subdomain(path, grid, faults)
         else:
-            check_interface(path, grid, entry_of(scene, name)["law"], faults)
+            check_interface(path, grid, entry_of(scene, name)["law"], variables, faults)
             interfaces.setdefault(int(number), {})[name] = grid
     for path in results.glob("midplane/*.vtu"):
         check_midplane(path, faults)

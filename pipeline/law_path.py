@@ -187,6 +187,11 @@ def draw_curve(axes, rows, component, names, units):
     number_ends(axes, rows, x, y)
 
 
+def own(rows, name):
+    """A variable of the law; zero where it has no such one."""
+    return rows[name] if name in rows.dtype.names else np.zeros(len(rows))
+
+
 def gap_of(rows):
     """r_n - r_n^p: below zero the faces press on each other."""
     return rows["jump_n"] - rows["jump_n_plastic"]
@@ -194,7 +199,7 @@ def gap_of(rows):
 
 def draw_gap(axes, rows, length):
     """The gap along the path, and the opening that the law keeps; the numbers are those of the other graphs."""
-    (gap, opening), length = scaled(np.stack([gap_of(rows), rows["opening"]]), length)
+    (gap, opening), length = scaled(np.stack([gap_of(rows), own(rows, "opening")]), length)
     axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
     kept = opening - gap
     if opening.any() and kept.max() > TOGETHER * gap.max():
@@ -251,7 +256,7 @@ def main():
         if mode_i:
             scale, label = mode_i, "work $W / G_I$"
     plt.rcParams.update(page.STYLE)
-    figure, corner = draw(rows, rows["fracture_work"] / scale, label, arguments.units)
+    figure, corner = draw(rows, own(rows, "fracture_work") / scale, label, arguments.units)
     page.heading(corner, arguments.title, arguments.subtitle)
     beside = Path("path" if arguments.csv == "-" else arguments.csv).with_suffix(".png")
     page.save(figure, arguments.output or beside)

@@ -46,8 +46,9 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f
             states.push(history.state().clone());
         }
     }
-    let interfaces = problem.model.interfaces.iter().zip(problem.laws());
-    let numbers = interfaces.map(|(interface, law)| stiffness_number(&problem.model, interface, law));
+    let interfaces = problem.model.interfaces.iter().zip(&problem.interfaces);
+    let numbers =
+        interfaces.map(|(interface, bound)| stiffness_number(&problem.model, interface, &bound.laws));
     (states, numbers.fold(0.0, f64::max))
 }
 

@@ -49,7 +49,7 @@ fn run(name: &str) -> (Problem, Vec<ModelState>, f64) {
 fn apart(problem: &Problem, state: &ModelState) -> usize {
     let mut apart = 0;
     for (interface, states) in problem.interfaces.iter().zip(&state.snapshot.states) {
-        assert!(matches!(interface.law, Law::Cracking(_)));
+        assert!(matches!(interface.laws.kind(), Law::Cracking(_)));
         for point in states {
             if point.jump.x - point.jump_plastic.x > GAP {
                 assert!(point.traction.x >= 0.0, "pressed across a gap: {point:?}");

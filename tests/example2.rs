@@ -63,7 +63,7 @@ fn every_law_point_carries_the_curve_of_one() {
                 let what = format!("{shape:?} {pair:?} {coupling} {strategy}");
                 let problem =
                     bind(&scene(sigma, 1e-3, coupling, strategy, 1e-4), layers(shape, pair)).unwrap();
-                let curve = point_curve(&problem.interfaces[0].law, sigma, 1e-4);
+                let curve = point_curve(problem.interfaces[0].laws.kind(), sigma, 1e-4);
                 let march = try_solve(&problem);
                 let totals = march.end.unwrap();
                 assert_eq!(march.states.len(), INCREMENTS + 1, "{what}");

@@ -13,7 +13,7 @@
 
 use crate::law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{ComponentControl, Controlled, LawPath, PathRow, PathSegment, drive};
-use midplane::law::{Cracking, Integration, Law, Local, State, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, PointLaw, State, WORK};
 
 fn jump(start: f64, end: f64) -> ComponentControl {
     ComponentControl { control: Controlled::Displacement, start, end }
@@ -115,12 +115,12 @@ fn shear_at_constant_compression_has_its_peak_its_slip_and_its_residual() {
         assert_eq!(rows.last().unwrap().state.own[WORK], 0.0);
 
         let tau = |w: f64| {
-            let now = law.strength(w);
+            let now = law.strength_after(w);
             let (chi, c, t) = (now.tensile_strength, now.cohesion, now.tan_friction);
             ((c - sigma * t).powi(2) - (c - chi * t).powi(2)).sqrt()
         };
         let slip = |from: f64, to: f64| {
-            integral(|w| 1.0 / (tau(w) + sigma * law.strength(w).tan_friction), from, to)
+            integral(|w| 1.0 / (tau(w) + sigma * law.strength_after(w).tan_friction), from, to)
         };
         for row in &shear(&law, sigma, 4e-4, 10, Integration::Tolerance(1e-10))[2..] {
             let w = row.state.own[WORK];
@@ -191,7 +191,7 @@ fn with_sigma_constrained_at_zero_the_shear_stress_is_gone_after_a_finite_slip()
     let rows = drive(&reference.law, &path, &State::default(), Integration::Tolerance(1e-10)).unwrap();
     let constrained: Vec<&State> = rows.iter().map(|row| &row.state).filter(|s| s.status == 3).collect();
     let tau = |w: f64| {
-        let now = law.strength(w);
+        let now = law.strength_after(w);
         let reach = now.tensile_strength * now.tan_friction;
         (reach * (2.0 * now.cohesion - reach)).sqrt()
     };

@@ -8,7 +8,9 @@
 //! ```
 
 use crate::law_help::close;
-use midplane::law::{Coulomb, Elastic, Integration, Law, Local, LocalMatrix, Response, State, local};
+use midplane::law::{
+    Coulomb, Elastic, Integration, Law, Local, LocalMatrix, PointLaw, Response, State, local,
+};
 
 const STEPPING: Integration = Integration::Tolerance(1e-4);
 

@@ -12,7 +12,7 @@
 //! too. Every sequence of events is counted, so that none is left out.
 
 use crate::law_help::Random;
-use midplane::law::{Coulomb, Integration, Law, Local, N, Response, State, T};
+use midplane::law::{Coulomb, Integration, Law, Local, N, PointLaw, Response, State, T};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 

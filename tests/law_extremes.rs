@@ -4,7 +4,7 @@
 //! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
 
 use crate::law_help::{EXAMPLE_2, Random, close};
-use midplane::law::{Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, State, WORK};
+use midplane::law::{Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, PointLaw, State, WORK};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {
     let Inadmissible { key: blamed, what, help } = law.check().unwrap_err();

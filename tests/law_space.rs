@@ -153,7 +153,7 @@ fn random_ways_in_space_keep_every_promise() {
             // the loss of friction alone may make the traction snap under enormous compression
             let Ok(new) = Law::Cracking(law).respond(jump, &old, TOLERANCE) else { continue };
             let scale = law.cohesion.max(new.traction.amax());
-            let now = law.strength(new.state.own[WORK]);
+            let now = law.strength_after(new.state.own[WORK]);
             let b = now.cohesion - now.tensile_strength * now.tan_friction;
             let shear = new.traction.y.hypot(new.traction.z);
             let outside = shear.hypot(b) - (now.cohesion - new.traction.x * now.tan_friction);
@@ -212,7 +212,7 @@ fn cracking_whose_slip_turns_keeps_the_tolerance() {
     // nothing is lost: energies far beyond what is spent
     let law = Cracking { fracture_energy_i: 1e6, fracture_energy_iia: 1e6, ..EXAMPLE_2 };
     let (sigma, kt) = (-5.0, law.tangential_stiffness);
-    let now = law.strength(0.0);
+    let now = law.strength_after(0.0);
     let b = now.cohesion - now.tensile_strength * now.tan_friction;
     let limit = ((now.cohesion - sigma * now.tan_friction).powi(2) - b * b).sqrt();
     let pressed = Local::new(sigma / law.normal_stiffness, 0.0, 0.0);

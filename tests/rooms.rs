@@ -395,3 +395,23 @@ fn every_file_of_tests_is_run() {
         assert!(runs || listed.contains(&format!("\nmod {name};\n")), "tests/main.rs has no `mod {name};`");
     }
 }
+
+/// Mentions of a type of law by name.
+fn named_laws(text: &str) -> Vec<&str> {
+    let kinds = ["Law::Elastic", "Law::Coulomb", "Law::Cracking", "Elastic(", "Coulomb(", "Cracking("];
+    text.lines().filter(|line| kinds.iter().any(|kind| line.contains(kind))).collect()
+}
+
+/// Claim: a law is known by its own file and the list of laws; no other room asks which one it has.
+#[test]
+fn no_room_asks_which_law_it_has() {
+    for (path, text) in sources() {
+        let named = named_laws(&text);
+        assert!(
+            named.is_empty(),
+            "{} names {named:?}: `PointLaw` has a question to ask instead",
+            path.display()
+        );
+    }
+    assert_eq!(named_laws("if matches!(law, Law::Elastic(_)) {\n}").len(), 1);
+}

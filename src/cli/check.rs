@@ -38,8 +38,8 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             "K_N h/E"
         ));
     }
-    for (interface, law) in model.interfaces.iter().zip(problem.laws()) {
-        let survey = Survey::of(model, interface, law);
+    for (interface, bound) in model.interfaces.iter().zip(&problem.interfaces) {
+        let survey = Survey::of(model, interface, &bound.laws);
         let [a, b] = survey.edges;
         show.line(&format!(
             "{:<width$} {:>11} {:>6.2} {:>8} {:>6} {:>11.6} {:>9.1e} {:>9.1e} {:>6.1}° {:>9.2e}",

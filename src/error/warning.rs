@@ -51,11 +51,13 @@ pub enum Code {
     Unheld,
     /// A slip or an opening beyond an edge of either side.
     Beyond,
+    /// Points of a softening curve whose area is not the fracture energy.
+    Stretched,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 22] = [
+    pub const ALL: [Code; 23] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -78,6 +80,7 @@ impl Code {
         Code::InitialTraction,
         Code::Unheld,
         Code::Beyond,
+        Code::Stretched,
     ];
 }
 

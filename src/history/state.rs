@@ -16,7 +16,7 @@ use super::energy::{across, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
-use crate::law::{Law, Local, local};
+use crate::law::{Local, local};
 use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
 use crate::solver::NodalSolution;
@@ -162,27 +162,28 @@ impl ModelState {
         };
         self.snapshot.tractions = Vec::new();
         for (k, (interface, bound)) in model.interfaces.iter().zip(interfaces).enumerate() {
-            let BoundInterface { law, initial, states: starts, .. } = bound;
+            let BoundInterface { laws, initial, states: starts, .. } = bound;
             let area = |p: usize| model.thickness * interface.coupling.points[p].weight;
-            if let Law::Elastic(_) = law {
-                let d = Local::from(law.elastic_stiffness());
+            if laws.kind().is_linear() {
+                let d = |p: usize| Local::from(laws.at(p).elastic_stiffness());
                 if !self.found[k] {
                     self.snapshot.jumps[k] =
                         interface.jumps(u).chunks_exact(model.components).map(local).collect();
                 }
                 let jumps = &self.snapshot.jumps[k];
-                let traction = |(p, r): (usize, &Local)| d.component_mul(r) + initial.at(p);
+                let traction = |(p, r): (usize, &Local)| d(p).component_mul(r) + initial.at(p);
                 self.snapshot.tractions.push(jumps.iter().enumerate().map(traction).collect());
                 if !self.is_complete() {
                     continue; // the ledger has the energy of elastic interfaces
                 }
                 for (p, r) in jumps.iter().enumerate() {
-                    let energy = ((0.5 * d).component_mul(r) + initial.at(p)).dot(r);
+                    let energy = ((0.5 * d(p)).component_mul(r) + initial.at(p)).dot(r);
                     self.stored += area(p) * energy;
                 }
             } else {
                 let states = &self.snapshot.states[k];
                 for (p, (state, start)) in states.iter().zip(starts).enumerate() {
+                    let law = laws.at(p);
                     self.stored += area(p) * (law.stored(state) - law.stored(start));
                 }
                 self.snapshot.tractions.push(states.iter().map(|state| state.traction).collect());

@@ -74,7 +74,7 @@ fn creep_on(
 ) -> Result<Outcome<()>> {
     let [mut eta, stiffness, softening] = scales(analysis);
     at.patience = if at.fresh { (2 * at.patience).min(64) } else { 4 };
-    let (mut wait, mut hold) = (at.patience, 0);
+    let (mut wait, mut hold, mut pulls) = (at.patience, 0, f64::INFINITY);
     let most_bent = BEND * analysis.problem.solution.path_tolerance;
     let (mut step, mut last) = ((FIRST * width).min(LONGEST), 0.0);
     loop {
@@ -82,7 +82,8 @@ fn creep_on(
         if at_goal || wait == 0 {
             let load = leg.start.at(at.load_factor)?;
             let left = analysis.engine.imbalance(&analysis.state, &load);
-            if left < if at_goal { 1e-2 } else { NEAR } && by_laws_alone(analysis, leg, at, stretch)? {
+            let near = if at_goal { left < 1e-2 } else { left < NEAR || pulls < SLIGHT };
+            if near && by_laws_alone(analysis, leg, at, stretch)? {
                 at.width = (4.0 * step).max(1e-4).min(leg.part);
                 return Ok(Outcome::Converged(()));
             }
@@ -109,7 +110,7 @@ fn creep_on(
                 if step >= 0.99 * LONGEST && driven && pulled > SLIGHT {
                     eta *= SLIGHT / pulled;
                 }
-                last = step;
+                (last, pulls) = (step, pulled);
                 at.load_factor = to;
                 (hold, wait) = (hold.max(1) - 1, wait.max(1) - 1);
                 let grow = if hold == 0 && iterations <= EASY { FACTOR } else { 1.0 };

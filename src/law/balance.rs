@@ -4,7 +4,8 @@
 //! with the law's own stiffness, kept between the last jumps that gave too little and too much.
 
 use super::local::{Local, LocalMatrix, N, T};
-use super::{Integration, Law, OWN, Response, State};
+use super::point::intact_strength;
+use super::{Integration, Law, Response, State};
 
 /// Prescribed value of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,11 +50,6 @@ pub(super) fn balance(
     }
 }
 
-fn strength(law: &Law, old: &State) -> f64 {
-    law.strength(&State { own: [0.0; OWN], ..*old })
-        .map_or(0.0, |strength| strength.cohesion.max(strength.tensile_strength))
-}
-
 /// Component `i` of the jump for a traction there.
 fn one(
     law: &Law,
@@ -63,7 +59,7 @@ fn one(
     respond: impl Fn(f64) -> Result<Response, String>,
 ) -> Result<State, String> {
     let stiffness = law.elastic_stiffness()[i];
-    let scale = target.abs().max(old.traction[i].abs()).max(strength(law, old));
+    let scale = target.abs().max(old.traction[i].abs()).max(intact_strength(&**law));
     let mut x = old.jump[i];
     let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut reach = scale / stiffness;
@@ -117,7 +113,7 @@ fn both(
     target: Local,
     respond: impl Fn(Local) -> Result<Response, String>,
 ) -> Result<State, String> {
-    let scale = target.amax().max(old.traction.amax()).max(strength(law, old));
+    let scale = target.amax().max(old.traction.amax()).max(intact_strength(&**law));
     let k = Local::from(law.elastic_stiffness());
     let elastic = target - old.traction;
     let mut jump = old.jump + elastic.component_div(&k);

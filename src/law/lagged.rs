@@ -9,56 +9,15 @@
 //! a step is contact and a given limit, which is monotone. Steps get small, so what the lag changes goes away with them, and
 //! what is stored is an equilibrium of the law itself. Frictional contact (`coulomb`) lags alike.
 
-use super::coulomb::OPEN;
-use super::cracking::WORK;
-use super::local::{Local, LocalMatrix, N, S, T, across, diagonal, direction, shear};
-use super::{Coulomb, Cracking, Integration, Law, Response, State, Unloading, Unresolved};
+use super::local::{Local, LocalMatrix, N, S, T};
+use super::{Response, State};
 
-/// Part of G_I that counts as all of it.
-const SPENT: f64 = 1.0 - 1e-9;
 /// Statuses of what slides, and of what is free of stress.
 const SLIPS: u8 = 2;
 const FREE: u8 = 4;
 
-impl Law {
-    /// The answer at a jump with friction lagged where its slope has no bound, or with `all` where it is steep; the law's own
-    /// elsewhere. Dilatancy lags alike.
-    pub fn respond_lagged(
-        &self,
-        jump: Local,
-        old: &State,
-        integration: Integration,
-        all: bool,
-    ) -> Result<Response, Unresolved> {
-        match self {
-            Law::Cracking(law) if all && (old.traction.x < 0.0 || !law.is_spent(old, SPENT)) => {
-                let answer = law.respond_on_facet(jump, old);
-                Ok(match answer.traction[N] >= 0.0 && law.is_spent(old, SPENT) {
-                    true => law.with_gap(parted(law.tangential_stiffness, answer)),
-                    false => answer,
-                })
-            }
-            Law::Cracking(law) if law.is_spent(old, SPENT) && (all || law.dilatancy_stress == 0.0) => {
-                let own = law.respond(Local::new(old.jump[N], jump[T], jump[S]), old, integration)?;
-                let parted = match law.unloading {
-                    Unloading::Closing => old.jump_plastic.x, // the gap is remembered
-                    Unloading::Plastic => old.jump_plastic.x.max(jump.x),
-                };
-                let answer = lagged(self.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted);
-                Ok(law.with_gap(answer))
-            }
-            Law::Coulomb(law) if law.dilatancy == 0.0 => {
-                let own = law.at_limit(jump, old);
-                let parted = old.jump_plastic.x;
-                Ok(lagged(self.elastic_stiffness(), jump, old, &own, old.status != OPEN, parted))
-            }
-            _ => self.respond(jump, old, integration),
-        }
-    }
-}
-
 /// An answer at no normal traction: what is left of the shear pushes in this step and is lost with it.
-fn parted(kt: f64, mut answer: Response) -> Response {
+pub(super) fn parted(kt: f64, mut answer: Response) -> Response {
     let tau = tangential(answer.traction);
     answer.released = 0.5 * tau.norm_squared() / kt;
     answer.state.traction -= tau;
@@ -73,41 +32,12 @@ fn with_normal(n: f64, v: Local) -> Local {
 }
 
 /// (0, t, s) of a vector.
-fn tangential(v: Local) -> Local {
+pub(super) fn tangential(v: Local) -> Local {
     with_normal(0.0, v)
 }
 
-impl Cracking {
-    /// This part of the tensile strength's energy is spent, or there is none.
-    fn is_spent(&self, old: &State, part: f64) -> bool {
-        self.tensile_strength == 0.0 || old.own[WORK] >= part * self.fracture_energy_i
-    }
-}
-
-impl Coulomb {
-    /// The shear that the normal traction of the old state allows.
-    fn at_limit(&self, jump: Local, old: &State) -> Response {
-        let kt = self.tangential_stiffness;
-        let trial = tangential(jump - old.jump_plastic) * kt;
-        let limit = self.cohesion - self.friction_coefficient * old.traction[N];
-        let (size, e) = (shear(&trial), direction(&trial));
-        let slides = size > limit;
-        let tau = if slides { e * limit } else { trial };
-        let d = if slides { across(&e) * (limit / size * kt) } else { diagonal(0.0, kt) };
-        let spent = limit * (size - shear(&tau)).abs() / kt;
-        Response {
-            traction: tau,
-            stiffness: d,
-            state: *old,
-            dissipation: spent,
-            dissipation_gradient: if slides { tau } else { Local::zeros() },
-            released: 0.0,
-        }
-    }
-}
-
 /// The lagged answer from the shear part of another; `parted`: irreversible opening of a point that is open.
-fn lagged(
+pub(super) fn lagged(
     [kn, kt, _]: [f64; 3],
     jump: Local,
     old: &State,

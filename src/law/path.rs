@@ -17,7 +17,8 @@ use serde::Deserialize;
 
 use super::balance::{Prescribed, balance};
 use super::local::Local;
-use super::{Integration, Law, OWN, State, Strength, variables};
+use super::point::intact_strength;
+use super::{Integration, Law, OWN, State, Strength};
 
 /// A path as read from its file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -138,9 +139,9 @@ pub enum PathError {
     },
 }
 
-/// Columns of the CSV, those of the laws' own variables among them.
-pub fn columns() -> String {
-    let own: String = variables().map(|variable| format!("{},", variable.name)).collect();
+/// Columns of the CSV, those of the law's own variables among them.
+pub fn columns(law: &Law) -> String {
+    let own: String = law.variables().iter().map(|variable| format!("{},", variable.name)).collect();
     format!(
         "s,jump_n,jump_t,traction_n,traction_t,{own}jump_n_plastic,jump_t_plastic,\
          tensile_strength,cohesion,tan_friction,status"
@@ -192,12 +193,12 @@ pub fn drive(
 
 /// Writes the rows as CSV, the header first; the elastic law leaves the strength columns empty.
 pub fn write_csv(law: &Law, rows: &[PathRow], mut out: impl Write) -> io::Result<()> {
-    writeln!(out, "{}", columns())?;
+    writeln!(out, "{}", columns(law))?;
     for PathRow { s, state, strength } in rows {
         write!(out, "{s},{:e},{:e}", state.jump.x, state.jump.y)?;
         write!(out, ",{:e},{:e}", state.traction.x, state.traction.y)?;
-        for variable in variables() {
-            write!(out, ",{:e}", law.value(variable, state))?;
+        for variable in law.variables() {
+            write!(out, ",{:e}", state.own[variable.place])?;
         }
         write!(out, ",{:e},{:e}", state.jump_plastic.x, state.jump_plastic.y)?;
         match strength {
@@ -261,9 +262,9 @@ fn between_rows(
     length: &mut f64,
 ) -> Result<State, (f64, String)> {
     let straight = at(1.0).iter().all(|target| matches!(target, Prescribed::Jump(_)));
-    let (tolerance, strength) = match (law, integration) {
-        (Law::Cracking(law), Integration::Tolerance(tolerance)) if !straight => (tolerance, law),
-        (_, Integration::BackwardEuler(steps)) if !straight => {
+    let bound = match integration {
+        Integration::Tolerance(tolerance) if !straight => law.local_bound(tolerance),
+        Integration::BackwardEuler(steps) if !straight && law.is_integrated() => {
             let mut state = *from;
             for step in 1..=steps.max(1) {
                 let part = step as f64 / steps.max(1) as f64;
@@ -272,10 +273,12 @@ fn between_rows(
             }
             return Ok(state);
         }
-        _ => return balance(law, from, at(1.0), integration).map_err(|reason| (1.0, reason)),
+        _ => None,
     };
-
-    let bound = strength.local_bound(tolerance).max(ROUNDING * strength.cohesion);
+    let Some(bound) = bound else {
+        return balance(law, from, at(1.0), integration).map_err(|reason| (1.0, reason));
+    };
+    let bound = bound.max(ROUNDING * intact_strength(&**law));
     let mut state = *from;
     let mut done = 0.0;
     while done < 1.0 {
@@ -285,7 +288,7 @@ fn between_rows(
         let whole = go(&state, end);
         let halves = go(&state, 0.5 * (done + end)).and_then(|middle| go(&middle, end));
         let ratio = match (&whole, &halves) {
-            (Ok(whole), Ok(halves)) => strength.misfit(whole, halves) / bound,
+            (Ok(whole), Ok(halves)) => law.misfit(whole, halves) / bound,
             _ => f64::INFINITY,
         };
         let shortest = part <= SHORTEST;

@@ -30,6 +30,17 @@ pub struct State {
     pub status: u8,
 }
 
+/// Strength of a law point at some state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strength {
+    /// Tensile strength χ [stress].
+    pub tensile_strength: f64,
+    /// Cohesion c [stress].
+    pub cohesion: f64,
+    /// Tangent of the friction angle [-].
+    pub tan_friction: f64,
+}
+
 /// Response of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response {

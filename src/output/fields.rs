@@ -5,7 +5,8 @@ use super::vtu::{Array, Data, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
-use crate::law::{self, Law, Local, State};
+use crate::law::{self, LawVariable, Local, State};
+use crate::problem::PointLaws;
 
 /// A body: displacement, stress at points and cells, principal stress.
 pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
@@ -41,10 +42,11 @@ pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
     }
 }
 
-/// The law points of an interface in order along C, joined by lines.
+/// The law points of an interface in order along C, joined by lines; `variables`: of which laws there are arrays.
 pub(super) fn interface(
     interface: &InterfaceOperator,
-    law: &Law,
+    laws: &PointLaws,
+    variables: &[&LawVariable],
     index: usize,
     snapshot: &Snapshot,
     time: f64,
@@ -73,8 +75,12 @@ pub(super) fn interface(
         let values = vectors.iter().flat_map(|v| v.iter().take(components).copied());
         Array::float(name, components, values)
     };
-    let own = law::variables().map(|variable| {
-        Array::float(variable.name, 1, states.iter().map(|state| law.value(variable, state)))
+    let own = variables.iter().map(|variable| {
+        Array::float(
+            variable.name,
+            1,
+            states.iter().enumerate().map(|(p, state)| laws.at(p).value(variable, state)),
+        )
     });
     let mut point_data = vec![
         local("jump", &snapshot.jumps[index]),

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::{Snapshot, earlier, fields, files, pvd};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
+use crate::law::LawVariable;
 use crate::problem::Problem;
 
 /// Writes one run's results as they come.
@@ -72,12 +73,13 @@ impl Writer {
             .chain(model.interfaces.iter().map(|interface| &interface.name));
         let names: Vec<&String> = names.collect();
         let subdomains = model.subdomains.len();
+        let variables: Vec<&LawVariable> = problem.variables().collect();
         names.par_iter().enumerate().try_for_each(|(i, name)| {
             let grid = if i < subdomains {
                 fields::subdomain(model, i, snapshot, time)
             } else {
                 let k = i - subdomains;
-                fields::interface(&model.interfaces[k], &interfaces[k].law, k, snapshot, time)
+                fields::interface(&model.interfaces[k], &interfaces[k].laws, &variables, k, snapshot, time)
             };
             files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
         })?;

@@ -48,6 +48,7 @@ impl<'a> Joining<'a> {
             law: _,
             law_tolerance: _,
             initial_traction: _,
+            initial_damage: _,
         } = stated;
         let gap = if initial_gap.is_some() { Gap::Open } else { Gap::Closed };
         let (coupling, grid, quadrature) = (*coupling, *grid, *quadrature);

@@ -6,7 +6,6 @@ use super::curve::PlannedInterface;
 use super::history::given;
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
-use crate::law::Law;
 use crate::mesh::Facet;
 use crate::scene::{Control, Grid, Scene, Solution};
 
@@ -64,12 +63,12 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
         let path = ["interfaces", name, "law_tolerance"];
         // a preset sets it for every law
         let chosen = stated.law_tolerance != crate::law::LAW_TOLERANCE && scene.accuracy.is_none();
-        if !matches!(stated.law, Law::Cracking(_)) && (chosen || scene.source.states(&path)) {
+        if !stated.law.kind().is_integrated() && (chosen || scene.source.states(&path)) {
             let why = "this law is evaluated exactly and has no error to control";
             tell(&path, why.into(), "leave it out: only \"cracking\" is integrated");
         }
     }
-    if scene.interfaces.values().all(|stated| matches!(stated.law, Law::Elastic(_))) {
+    if scene.interfaces.values().all(|stated| stated.law.kind().is_linear()) {
         let linear = "nothing slides or cracks: the scene is linear";
         for (i, step) in scene.steps.iter().enumerate() {
             if step.control != Control::Load {

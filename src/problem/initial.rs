@@ -1,11 +1,12 @@
 //! Initial tractions t₀ at the law points of an interface (paper eq. 10).
 
-use super::Gaps;
+use super::point_laws::{place, shown};
 use super::quantity::Quantity;
+use super::{Gaps, PointLaws};
 use crate::assembly::InterfaceOperator;
 use crate::error::Result;
-use crate::law::{self, Inadmissible, Law, Local};
-use crate::scene::{self, FormulaPlace, Scene};
+use crate::law::{self, Inadmissible, Local};
+use crate::scene::{self, Scene};
 
 /// Initial traction of an interface [stress].
 #[derive(Debug, Clone, PartialEq)]
@@ -38,10 +39,8 @@ impl InitialTraction {
         }
         let n = Quantity::new(scene, &["interfaces", name, "initial_traction", "0"], n);
         let t = Quantity::new(scene, &["interfaces", name, "initial_traction", "1"], t);
-        let length = interface.coupling.midplane.length;
-        let tractions = interface.coupling.points.iter().map(|point| {
-            let [x, y, _] = point.position;
-            let place = FormulaPlace { x, y, s: point.s / length, load_factor: 0.0 };
+        let tractions = (0..interface.coupling.points.len()).map(|point| {
+            let place = place(interface, point);
             Ok(Local::new(n.at(&place)?, t.at(&place)?, 0.0))
         });
         Ok(InitialTraction::Varying(tractions.collect::<Result<_>>()?))
@@ -52,16 +51,23 @@ impl InitialTraction {
 pub(super) fn states(
     scene: &Scene,
     name: &str,
-    law: &Law,
+    stated: &scene::Interface,
+    laws: &PointLaws,
     initial: &InitialTraction,
     gaps: &Gaps,
     interface: &InterfaceOperator,
 ) -> Result<Vec<law::State>> {
-    if matches!(law, Law::Elastic(_)) {
+    if laws.kind().is_linear() {
         return Ok(Vec::new());
     }
+    let damage = Quantity::new(scene, &["interfaces", name, "initial_damage"], &stated.initial_damage);
+    let place = |point: usize| place(interface, point);
     let state = |point: usize| {
-        law.initial_state(initial.at(point), gaps.at(point)).map_err(|Inadmissible { key, what, help }| {
+        let damage = damage.at(&place(point))?;
+        let law = laws.at(point);
+        let start = law.initial_state(initial.at(point), gaps.at(point));
+        start.and_then(|start| law.damaged(start, damage)).map_err(|Inadmissible { key, what, help }| {
+            let what = if damage == 0.0 { what } else { format!("{what} at {}", shown(&place(point))) };
             scene.source.error_at(&["interfaces", name, key], what, help)
         })
     };

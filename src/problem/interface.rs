@@ -1,17 +1,17 @@
 //! An interface, bound: its law with all that the law starts from.
 
 use super::curve::PlannedInterface;
-use super::{Gaps, InitialTraction, initial, stiffness};
+use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
-use crate::law::{self, Integration, Law};
+use crate::law::{self, Integration};
 use crate::scene::Scene;
 
 /// An interface, bound.
 #[derive(Debug, Clone)]
 pub struct BoundInterface {
-    /// Its law.
-    pub law: Law,
+    /// Its laws.
+    pub laws: PointLaws,
     /// Initial tractions.
     pub initial: InitialTraction,
     /// States of the law points before the first increment; empty for an elastic interface, which has no history.
@@ -29,17 +29,18 @@ impl BoundInterface {
         model: &Model,
         operator: &InterfaceOperator,
         plan: &PlannedInterface,
+        laws: PointLaws,
     ) -> Result<BoundInterface> {
         let stated = plan.stated;
         let gaps = Gaps::new(stated.initial_gap, operator);
         let initial = InitialTraction::bind(scene, plan.entry, stated, operator)?;
-        let states = initial::states(scene, plan.entry, &stated.law, &initial, &gaps, operator)?;
+        let states = initial::states(scene, plan.entry, stated, &laws, &initial, &gaps, operator)?;
         Ok(BoundInterface {
-            law: stated.law,
             initial,
             states,
             integration: Integration::Tolerance(stated.law_tolerance),
-            stiff: stiffness::is_stiff(scene, stated, model, operator),
+            stiff: stiffness::is_stiff(scene, stated, model, operator, &laws),
+            laws,
         })
     }
 }

@@ -13,6 +13,7 @@ mod interface;
 mod load;
 mod parts;
 mod plan;
+mod point_laws;
 mod probes;
 mod quantity;
 mod rigid;
@@ -31,6 +32,7 @@ pub use history::Reaction;
 pub use initial::InitialTraction;
 pub use interface::BoundInterface;
 pub use parts::subdomain_meshes;
+pub use point_laws::PointLaws;
 pub use probes::{BoundProbe, ProbeInput};
 pub use rigid::is_constrained;
 pub use step::BoundStep;
@@ -46,7 +48,7 @@ use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::{Elasticity, PlaneState};
 use crate::coupling::Surroundings;
 use crate::error::{Result, Warning};
-use crate::law::Law;
+use crate::law::{self, Law, LawVariable};
 use crate::mesh::Mesh;
 use crate::scene::{self, Scene};
 
@@ -78,9 +80,14 @@ impl Problem {
         self.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
     }
 
-    /// The laws of the interfaces, in their order.
+    /// All laws of all interfaces that differ.
     pub fn laws(&self) -> impl Iterator<Item = &Law> {
-        self.interfaces.iter().map(|interface| &interface.law)
+        self.interfaces.iter().flat_map(|interface| interface.laws.all())
+    }
+
+    /// Variables of their laws, each name once.
+    pub fn variables(&self) -> impl Iterator<Item = &'static LawVariable> {
+        law::variables().filter(|variable| self.laws().any(|law| law.has(variable)))
     }
 
     /// Binds a scene to the meshes of its subdomains, in their order.
@@ -129,9 +136,10 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     let around = Surroundings { supports: &supports, junctions: &junctions };
     for (k, plan) in plans.iter().enumerate() {
         let operator = known.get(k).map_or_else(|| plan.join(&model, around), |known| Ok(known.clone()))?;
-        stiffness::check_precision(scene, &model, &operator, plan)?;
-        warnings.extend(warnings::of_interface(scene, &model, &operator, plan));
-        interfaces.push(BoundInterface::new(scene, &model, &operator, plan)?);
+        let laws = PointLaws::bind(scene, plan.entry, plan.stated, &operator)?;
+        stiffness::check_precision(scene, &model, &operator, plan, &laws)?;
+        warnings.extend(warnings::of_interface(scene, &model, &operator, plan, &laws));
+        interfaces.push(BoundInterface::new(scene, &model, &operator, plan, laws)?);
         model.interfaces.push(operator);
     }
     warnings.extend(cover::shares(scene, &model, &plans)?);

@@ -126,7 +126,7 @@ impl BoundProbe {
                     JointField::Jump(c) => input.jumps[*interface][p][c],
                     JointField::Traction(c) => input.tractions[*interface][p][c],
                     JointField::Variable(variable) => {
-                        let law = &input.interfaces[*interface].law;
+                        let law = input.interfaces[*interface].laws.at(p);
                         input.states[*interface].get(p).map_or(0.0, |state| law.value(variable, state))
                     }
                 };

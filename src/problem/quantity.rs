@@ -41,7 +41,7 @@ impl Quantity {
         if value.is_finite() {
             return Ok(value);
         }
-        let named = Variable::ALL.into_iter().zip([place.x, place.y, place.s, place.load_factor]);
+        let named = Variable::ALL.into_iter().zip([place.x, place.y, place.z, place.s, place.load_factor]);
         let used = named
             .filter(|(variable, _)| matches!(variable, Variable::X | Variable::Y) || self.uses(*variable));
         let at: Vec<String> = used.map(|(variable, at)| format!("{} = {at}", variable.name())).collect();

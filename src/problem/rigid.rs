@@ -89,7 +89,7 @@ pub(super) fn check_free_subdomains(
         }
     }
     let mut u = vec![0.0; model.dofs()];
-    for (interface, BoundInterface { law, .. }) in model.interfaces.iter().zip(interfaces) {
+    for (interface, BoundInterface { laws, .. }) in model.interfaces.iter().zip(interfaces) {
         let mut nodes = interface.coupling.sides.each_ref().map(|side| side.nodes.as_slice()).concat();
         nodes.sort_unstable();
         nodes.dedup(); // both sides of a slit share its tips
@@ -108,7 +108,7 @@ pub(super) fn check_free_subdomains(
         }
         let compliance = compliance(model, interface);
         let share = 1.0 / interface.coupling.points.len() as f64;
-        let resists = law.elastic_stiffness().map(|k| share * (k * compliance).min(1.0));
+        let resists = laws.stiffest().map(|k| share * (k * compliance).min(1.0));
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
                 let sum: f64 = (0..jump_i.len()).map(|k| resists[k % c] * jump_i[k] * jump_j[k]).sum();

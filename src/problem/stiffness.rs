@@ -1,9 +1,10 @@
 //! The stiffness number K_N h/E of an interface: what its springs are against the continuum beside them.
 
+use super::PointLaws;
 use super::curve::PlannedInterface;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
-use crate::law::Law;
+use crate::law::N;
 use crate::scene::{CouplingKind, Interface, Scene, Strategy};
 
 /// K_N h/E times the machine's ε from which rounding is seen in the tractions.
@@ -16,8 +17,8 @@ const STIFF: f64 = 1e3;
 const REPRESENTED: f64 = 1e100;
 
 /// K_N h/E of an interface: the larger of the two edges meeting, the smaller E, maximum along the interface.
-pub fn stiffness_number(model: &Model, interface: &InterfaceOperator, law: &Law) -> f64 {
-    law.elastic_stiffness()[0] * compliance(model, interface)
+pub fn stiffness_number(model: &Model, interface: &InterfaceOperator, laws: &PointLaws) -> f64 {
+    laws.stiffest()[N] * compliance(model, interface)
 }
 
 /// h/E, the largest along an interface.
@@ -38,7 +39,7 @@ pub(super) fn compliance(model: &Model, interface: &InterfaceOperator) -> f64 {
 /// True if an interface is solved for its jump when it is stiff: then the rounding of displacements does not reach its
 /// tractions.
 pub(super) fn jump_is_unknown(scene: &Scene, stated: &Interface) -> bool {
-    let elastic = matches!(stated.law, Law::Elastic(_));
+    let elastic = stated.law.kind().is_linear();
     let projected = stated.coupling == CouplingKind::Projected;
     elastic && projected && scene.solution.strategy != Strategy::Plain
 }
@@ -49,8 +50,9 @@ pub(super) fn is_stiff(
     stated: &Interface,
     model: &Model,
     interface: &InterfaceOperator,
+    laws: &PointLaws,
 ) -> bool {
-    let [kn, kt, _] = stated.law.elastic_stiffness();
+    let [kn, kt, _] = laws.stiffest();
     jump_is_unknown(scene, stated) && kn.max(kt) * compliance(model, interface) > STIFF
 }
 
@@ -60,14 +62,14 @@ pub(super) fn check_precision(
     model: &Model,
     interface: &InterfaceOperator,
     plan: &PlannedInterface,
+    laws: &PointLaws,
 ) -> Result<()> {
-    let law = &plan.stated.law;
-    let number = stiffness_number(model, interface, law);
+    let number = stiffness_number(model, interface, laws);
     let most = if jump_is_unknown(scene, plan.stated) { REPRESENTED } else { ROUNDING_RULES / f64::EPSILON };
     if number <= most {
         return Ok(());
     }
-    let [kn, ..] = law.elastic_stiffness();
+    let [kn, ..] = laws.stiffest();
     let largest = kn * ROUNDING_SEEN / (number * f64::EPSILON);
     let what = format!("K_N h/E = {number:.1e} is beyond double precision");
     let help = format!("take {largest:.0e} or less: stiffer springs change nothing but the rounding");

@@ -241,8 +241,8 @@ fn places(
         _ => {}
     }
     let place = |(node, s): (usize, f64)| {
-        let [x, y, _] = points[node - subdomain.first_node];
-        (node, FormulaPlace { x, y, s, load_factor: 1.0 })
+        let [x, y, z] = points[node - subdomain.first_node];
+        (node, FormulaPlace { x, y, z, s, load_factor: 1.0 })
     };
     Ok(nodes.into_iter().zip(s).map(place).collect())
 }

@@ -1,9 +1,9 @@
 //! The geometry of an interface in numbers, as `midplane check` and summary.json have it.
 
+use super::PointLaws;
 use super::stiffness::stiffness_number;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::Coupling;
-use crate::law::Law;
 use crate::shape::Ends;
 
 /// An interface in numbers.
@@ -31,7 +31,7 @@ pub struct Survey {
 
 impl Survey {
     /// Measures an interface.
-    pub fn of(model: &Model, interface: &InterfaceOperator, law: &Law) -> Survey {
+    pub fn of(model: &Model, interface: &InterfaceOperator, laws: &PointLaws) -> Survey {
         let coupling = &interface.coupling;
         let shares = &coupling.midplane.segments;
         let joined = [0, 1].map(|side| {
@@ -50,7 +50,7 @@ impl Survey {
             length: coupling.midplane.length,
             gap: coupling.midplane.gap,
             kink: kink[0].max(kink[1]).to_degrees(),
-            stiffness_number: stiffness_number(model, interface, law),
+            stiffness_number: stiffness_number(model, interface, laws),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Warnings of interfaces.
 
+use super::PointLaws;
 use super::curve::PlannedInterface;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
@@ -21,18 +22,24 @@ pub(super) fn of_interface(
     model: &Model,
     interface: &InterfaceOperator,
     plan: &PlannedInterface,
+    laws: &PointLaws,
 ) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let (name, law) = (&interface.name, &plan.stated.law);
+    let name = &interface.name;
     let coupling = &interface.coupling;
     let segments = coupling.midplane.segments.len();
     let matched = (0..2).all(|side| coupling.facets(side) == segments);
-    let number = stiffness_number(model, interface, law);
+    let number = stiffness_number(model, interface, laws);
     if number * f64::EPSILON > ROUNDING_SEEN && !jump_is_unknown(scene, plan.stated) {
         let what = format!("interface {name}: at K_N h/E = {number:.1e} rounding reaches the tractions");
         warnings.push(Warning::new(Code::Rounding, what, "less stiff springs say as much"));
     }
-    warnings.extend(law.warnings().into_iter().map(|warning| warning.of(&format!("interface {name}"))));
+    // laws that vary may each have doubts of their own: the first of a kind is told
+    for warning in laws.all().iter().flat_map(|law| law.warnings()) {
+        if !warnings.iter().any(|told: &Warning| told.code == warning.code) {
+            warnings.push(warning.of(&format!("interface {name}")));
+        }
+    }
     if plan.stated.coupling == CouplingKind::Pointwise && !matched && number > 1.0 {
         let what =
             format!("interface {name}: \"pointwise\" on unmatched sides at K_N h/E = {number:.1} oscillates");

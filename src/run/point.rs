@@ -5,7 +5,8 @@ use std::path::Path;
 use super::presets::read_scene;
 use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
-use crate::law::{Integration, Law, Local, State};
+use crate::law::{Integration, Law, Local};
+use crate::scene::Variable;
 
 /// The law, rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Law, Vec<PathRow>, Option<Error>);
@@ -30,7 +31,22 @@ pub fn drive(
         let help = "give the numbers at your point by --set";
         initial[i] = value.constant().ok_or_else(|| scene.source.error_at(&place, what, help))?;
     }
-    let start = start(&interface.law, initial)
+    if let Some((key, text)) = [Variable::X, Variable::Y, Variable::Z, Variable::S]
+        .into_iter()
+        .find_map(|variable| interface.law.using(variable))
+    {
+        let path: Vec<&str> = ["interfaces", name, "law"].into_iter().chain(key.split('.')).collect();
+        let what = format!("{text} depends on the place, and one point has none");
+        return Err(scene.source.error_at(&path, what, "give the number at your point by --set"));
+    }
+    let damage = interface.initial_damage.constant().ok_or_else(|| {
+        let what = format!("{} depends on the place, and one point has none", interface.initial_damage);
+        let path = ["interfaces", name, "initial_damage"];
+        scene.source.error_at(&path, what, "give the number at your point by --set")
+    })?;
+    let law = interface.law.kind();
+    let start = (law.initial_state(initial, 0.0))
+        .and_then(|start| law.damaged(start, damage))
         .map_err(|law| scene.source.error_at(&["interfaces", name, law.key], law.what, law.help))?;
     let integration = integration.unwrap_or(Integration::Tolerance(interface.law_tolerance));
     let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
@@ -40,20 +56,16 @@ pub fn drive(
         let help = "a path holds \"program\": segments with \"n\", \"t\" and \"points\"";
         error_at(path, error.line(), "", what, help)
     })?;
-    match path::drive(&interface.law, &program, &start, integration) {
-        Ok(rows) => Ok((interface.law, rows, None)),
+    match path::drive(law, &program, &start, integration) {
+        Ok(rows) => Ok((law.clone(), rows, None)),
         Err(PathError::Program { key, what, help }) => Err(error_at(path, 0, &key, &what, &help)),
         Err(PathError::NoEquilibrium { s, reason, rows }) => {
             let step = path.display().to_string();
             let (increment, kept) = (rows.len(), rows.len().saturating_sub(1));
             let reason = format!("at s = {s:.6}: {reason}");
-            Ok((interface.law, rows, Some(Error::NoEquilibrium { step, increment, reason, kept })))
+            Ok((law.clone(), rows, Some(Error::NoEquilibrium { step, increment, reason, kept })))
         }
     }
-}
-
-fn start(law: &Law, initial_traction: Local) -> std::result::Result<State, crate::law::Inadmissible> {
-    law.initial_state(initial_traction, 0.0)
 }
 
 fn error_at(file: &Path, line: usize, key: &str, what: &str, help: &str) -> Error {

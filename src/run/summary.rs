@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::assembly::Model;
 use crate::history::{Clock, Operations, Resultant, Snap, Totals, memory, resultant};
+use crate::law::LawVariable;
 use crate::problem::{Problem, Survey};
 use crate::scene::Scene;
 use crate::shape::Ends;
@@ -19,6 +20,8 @@ pub(super) struct Summary<'a> {
     scene: &'a str,
     title: &'a str,
     sizes: Sizes<'a>,
+    /// Variables of the laws: what interface arrays hold beside jump, traction and status.
+    variables: Vec<&'static LawVariable>,
     solution: SolutionSummary,
     /// Why the run ended before its last increment; null if it did not.
     stopped: Option<String>,
@@ -154,8 +157,8 @@ pub(super) fn summary<'a>(
         }
         (subdomain.name.as_str(), SubdomainSize { nodes: subdomain.mesh.points.len(), cells })
     });
-    let interfaces = model.interfaces.iter().zip(problem.laws()).map(|(interface, law)| {
-        (interface.name.as_str(), InterfaceSize::new(Survey::of(model, interface, law)))
+    let interfaces = model.interfaces.iter().zip(&problem.interfaces).map(|(interface, bound)| {
+        (interface.name.as_str(), InterfaceSize::new(Survey::of(model, interface, &bound.laws)))
     });
     let told = totals.warnings(problem.solution.path_tolerance);
     let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();
@@ -171,6 +174,7 @@ pub(super) fn summary<'a>(
             subdomains: subdomains.collect(),
             interfaces: interfaces.collect(),
         },
+        variables: problem.variables().collect(),
         solution: SolutionSummary {
             increments: totals.increments,
             iterations: totals.iterations,

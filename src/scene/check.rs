@@ -141,6 +141,7 @@ impl Scene {
     }
 
     fn check_step(&self, index: &str, step: &Step) -> Result<()> {
+        self.check_clock(index, step)?;
         if step.increments == 0 {
             let path = ["steps", index, "increments"];
             return Err(self.source.error_at(&path, "a step of 0 increments", "give 1 or more"));

@@ -1,23 +1,26 @@
 //! Formulas of a scene, such as `5*cos(pi*x)`: compiled once, evaluated millions of times without allocation.
 //!
 //! A formula becomes postfix code for a small stack of numbers; what depends on no variable is worked out beforehand.
-//! Names are `x`, `y` (place), `s` (0…1 along the group), `load_factor` (0…1 within the step), `pi`, `e`, and functions.
+//! Names are `x`, `y`, `z` (place), `s` (0…1 along the group), `load_factor` (0…1 within the step), `pi`, `e`, and functions.
 
 use super::grammar;
 pub use super::op::{FormulaFault, FormulaPlace, Variable};
 use super::op::{Op, STACK, evaluate};
+use super::random::RandomField;
 
 /// A compiled formula.
 #[derive(Debug, Clone)]
 pub struct Expression {
     text: String,
     code: Vec<Op>,
+    /// Random fields in it.
+    fields: Vec<RandomField>,
 }
 
 impl Expression {
     /// Compiles a text.
     pub fn parse(text: &str) -> Result<Expression, FormulaFault> {
-        let code = grammar::compile(text)?;
+        let (code, fields) = grammar::compile(text)?;
         let whole = |what: String, help: &str| FormulaFault { span: 0..text.len(), what, help: help.into() };
         let (mut height, mut highest) = (0, 0);
         for op in &code {
@@ -28,7 +31,7 @@ impl Expression {
             let what = format!("a formula that remembers {highest} values at once");
             return Err(whole(what, &format!("it can remember {STACK}: nest it less")));
         }
-        let expression = Expression { text: text.into(), code };
+        let expression = Expression { text: text.into(), code, fields };
         match expression.constant() {
             Some(value) if !value.is_finite() => {
                 Err(whole(format!("\"{text}\" is {value}"), "a number of a scene is finite"))
@@ -52,12 +55,17 @@ impl Expression {
 
     /// True if it depends on a variable.
     pub fn uses(&self, variable: Variable) -> bool {
-        self.code.iter().any(|op| matches!(op, Op::Variable(used) if *used == variable))
+        let place = matches!(variable, Variable::X | Variable::Y | Variable::Z);
+        self.code.iter().any(|op| match op {
+            Op::Variable(used) => *used == variable,
+            Op::Random(_) => place,
+            _ => false,
+        })
     }
 
     /// Its value at a place; not finite where the formula is not defined.
     pub fn at(&self, place: &FormulaPlace) -> f64 {
-        evaluate(&self.code, place)
+        evaluate(&self.code, &self.fields, place)
     }
 }
 
@@ -71,7 +79,7 @@ impl PartialEq for Expression {
 mod tests {
     use super::*;
 
-    const PLACE: FormulaPlace = FormulaPlace { x: 3.0, y: -0.5, s: 0.25, load_factor: 0.75 };
+    const PLACE: FormulaPlace = FormulaPlace { x: 3.0, y: -0.5, z: 0.0, s: 0.25, load_factor: 0.75 };
 
     #[test]
     fn formulas_follow_the_rules_of_school() {

@@ -2,6 +2,9 @@
 
 use super::op::Op;
 
+/// The random field.
+pub(super) const RANDOM: &str = "random";
+
 /// The functions by name.
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[(&str, Op)] = &[
@@ -13,6 +16,7 @@ pub(super) const FUNCTIONS: &[(&str, Op)] = &[
     ("floor", Op::One(f64::floor)), ("sign", Op::One(sign)),
     ("atan2", Op::Two(f64::atan2)), ("hypot", Op::Two(f64::hypot)), ("mod", Op::Two(f64::rem_euclid)),
     ("min", Op::Two(min)), ("max", Op::Two(max)), ("if", Op::Three(choose)),
+    (RANDOM, Op::Two(min)), // its arguments make a field when it is compiled
 ];
 
 type Compare = fn(f64, f64) -> f64;

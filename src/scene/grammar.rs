@@ -9,8 +9,9 @@
 //! value      = number | name | function "(" comparison {"," comparison} ")" | "(" comparison ")"
 //! ```
 
-use super::functions::{COMPARISONS, FUNCTIONS};
+use super::functions::{COMPARISONS, FUNCTIONS, RANDOM};
 use super::op::{FormulaFault, FormulaPlace, Op, Variable, evaluate};
+use super::random::RandomField;
 use crate::error::name_help;
 
 /// Longest formula [bytes].
@@ -19,16 +20,20 @@ const LONGEST: usize = 10_000;
 const DEEPEST: usize = 64;
 /// Characters of the text shown on either side of a fault.
 const AROUND: usize = 30;
+/// Most random fields of a formula.
+const MOST_FIELDS: usize = 16;
+/// Seeds are below this.
+const LARGEST_SEED: f64 = 9e15;
 
 /// Compiles a text.
-pub(super) fn compile(text: &str) -> Result<Vec<Op>, FormulaFault> {
-    let mut parser = Parser { text, at: 0, code: Vec::new(), depth: 0 };
+pub(super) fn compile(text: &str) -> Result<(Vec<Op>, Vec<RandomField>), FormulaFault> {
+    let mut parser = Parser { text, at: 0, code: Vec::new(), fields: Vec::new(), depth: 0 };
     if text.len() > LONGEST {
         return Err(parser.fault(0..0, "a formula of more than 10000 characters", "write it shorter"));
     }
     parser.comparison()?;
     match parser.peek() {
-        None => Ok(parser.code),
+        None => Ok((parser.code, parser.fields)),
         Some(c) => Err(parser.leftover(c)),
     }
 }
@@ -38,6 +43,7 @@ struct Parser<'a> {
     /// Byte that comes next.
     at: usize,
     code: Vec<Op>,
+    fields: Vec<RandomField>,
     depth: usize,
 }
 
@@ -64,7 +70,7 @@ impl<'a> Parser<'a> {
         let start = self.code.len().saturating_sub(1 + op.takes());
         let operands = &self.code[start..self.code.len() - 1];
         if op.takes() > 0 && operands.iter().all(|operand| matches!(operand, Op::Number(_))) {
-            let value = evaluate(&self.code[start..], &FormulaPlace::default());
+            let value = evaluate(&self.code[start..], &self.fields, &FormulaPlace::default());
             self.code.truncate(start);
             self.code.push(Op::Number(value));
         }
@@ -245,9 +251,35 @@ impl<'a> Parser<'a> {
             let what = format!("{name} takes {takes}{or_more}, not {given},");
             return Err(self.fault(open..self.at, &what, "separate the values by commas"));
         }
+        if name == RANDOM {
+            return self.field(open);
+        }
         for _ in 0..if many { given - 1 } else { 1 } {
             self.emit(function);
         }
+        Ok(())
+    }
+
+    /// A random field from its seed and correlation length, which are numbers.
+    fn field(&mut self, open: usize) -> Result<(), FormulaFault> {
+        let given = self.code.split_off(self.code.len().saturating_sub(2));
+        let [Op::Number(seed), Op::Number(length)] = given[..] else {
+            let help = "its seed and its correlation length are numbers, such as random(1, 0.5)";
+            return Err(self.fault(open..self.at, "a random field that depends on the place", help));
+        };
+        if !(seed >= 0.0 && seed.fract() == 0.0 && seed < LARGEST_SEED) {
+            let help = "it is a whole number from 0 on";
+            return Err(self.fault(open..self.at, &format!("{seed} is no seed"), help));
+        }
+        if !(length > 0.0 && length.is_finite()) {
+            let help = "it is more than zero";
+            return Err(self.fault(open..self.at, &format!("{length} is no correlation length"), help));
+        }
+        if self.fields.len() == MOST_FIELDS {
+            return Err(self.fault(open..self.at, "more than 16 random fields", "take fewer"));
+        }
+        self.code.push(Op::Random(self.fields.len()));
+        self.fields.push(RandomField::new(seed as u64, length));
         Ok(())
     }
 

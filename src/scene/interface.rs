@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Scene, Value};
-use crate::law::{LAW_TOLERANCE, Law};
+use super::{Scene, StatedLaw, Value};
+use crate::law::LAW_TOLERANCE;
 
 /// Between the parts of a derived name, `NAME~A~B`: no name of a scene holds it, every file system takes it.
 pub const JOINED: char = '~';
@@ -36,14 +36,17 @@ pub struct Interface {
     /// Points of an interval at which the law acts.
     #[serde(default)]
     pub quadrature: Quadrature,
-    /// The law.
-    pub law: Law,
+    /// The law; any of its numbers may be a formula of the place.
+    pub law: StatedLaw,
     /// Error control of the law's integration, relative to the larger of tensile strength and cohesion.
     #[serde(default = "law_tolerance")]
     pub law_tolerance: f64,
     /// Initial distance of the sides to the law; without it they touch, whatever the meshes say. For `coulomb` only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial_gap: Option<InitialGap>,
+    /// Share of the fracture energy that is lost at the start, 0 to 1, faces closed: a notch, an old crack. For laws that crack.
+    #[serde(default, skip_serializing_if = "Value::is_zero")]
+    pub initial_damage: Value,
     /// Initial traction (n, t) [stress] (paper eq. 10); in a formula s runs along chain A with n on its left.
     #[serde(default)]
     pub initial_traction: [Value; 2],

@@ -3,9 +3,10 @@
 use wildmatch::WildMatch;
 
 use super::named::{check_group, check_name};
-use super::{CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Variable, split_group};
+use super::{
+    Control, CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Step, Variable, split_group,
+};
 use crate::error::{Result, name_help};
-use crate::law::Law;
 
 impl Scene {
     /// Refuses the first thing that is wrong with an interface.
@@ -60,10 +61,50 @@ impl Scene {
                 "it lies between 0 and 1, such as 1e-4",
             ));
         }
-        interface
-            .law
+        self.check_law(name, interface)
+    }
+
+    /// A law whose numbers are numbers is checked here, any other at its law points.
+    fn check_law(&self, name: &str, interface: &Interface) -> Result<()> {
+        let law = &interface.law;
+        let at_start = |key: &str, what: String| {
+            let path: Vec<&str> = ["interfaces", name].into_iter().chain(key.split('.')).collect();
+            let help = "what an interface is made of does not change with the load";
+            Err(self.source.error_at(&path, what, help))
+        };
+        if let Some((key, text)) = law.using(Variable::LoadFactor) {
+            return at_start(&format!("law.{key}"), format!("load_factor in {text}"));
+        }
+        if interface.initial_damage.uses(Variable::LoadFactor) {
+            return at_start("initial_damage", format!("load_factor in {}", interface.initial_damage));
+        }
+        if !interface.initial_damage.is_zero() && !law.kind().takes_damage() {
+            let what = "this law knows no initial damage";
+            return Err(self.source.error_at(
+                &["interfaces", name, "initial_damage"],
+                what,
+                "take \"cracking\" or \"cohesive\", or leave it out",
+            ));
+        }
+        if !law.is_uniform() {
+            return Ok(());
+        }
+        law.kind()
             .check()
             .map_err(|law| self.source.error_at(&["interfaces", name, "law", law.key], law.what, law.help))
+    }
+
+    /// The viscosity of a law counts in the load factor of a step, which must not fall.
+    pub(super) fn check_clock(&self, index: &str, step: &Step) -> Result<()> {
+        let viscous = |interface: &Interface| interface.law.kind().is_viscous();
+        match self.interfaces.iter().find(|(_, interface)| viscous(interface)) {
+            Some((name, _)) if step.control != Control::Load => {
+                let what = format!("the law of \"{name}\" has a viscosity, whose time is the load factor");
+                let help = "take \"control\": \"load\", or leave the viscosity out";
+                Err(self.source.error_at(&["steps", index, "control"], what, help))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check_sides(&self, name: &str, sides: [&OneOrMany; 2]) -> Result<()> {
@@ -98,7 +139,7 @@ impl Scene {
     fn check_gap(&self, name: &str, interface: &Interface) -> Result<()> {
         let path = ["interfaces", name, "initial_gap"];
         let Some(gap) = interface.initial_gap else { return Ok(()) };
-        if !matches!(interface.law, Law::Coulomb(_)) {
+        if !interface.law.kind().takes_gap() {
             let what = "this law knows no initial gap";
             let help = "only \"type\": \"coulomb\" does: take that law or leave \"initial_gap\" out";
             return Err(self.source.error_at(&path, what, help));

@@ -13,11 +13,13 @@ mod interface_check;
 mod named;
 mod op;
 pub mod probe;
+mod random;
 mod read;
 mod schema;
 mod set;
 mod solution;
 mod source;
+mod stated_law;
 mod value;
 
 pub use accuracy::{Accuracy, Preset};
@@ -27,6 +29,7 @@ pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
+pub use stated_law::StatedLaw;
 pub use value::Value;
 
 use indexmap::IndexMap;

@@ -1,5 +1,7 @@
 //! Postfix code of formulas and its evaluation.
 
+use super::random::RandomField;
+
 /// Values that an expression may have to remember at once.
 pub(super) const STACK: usize = 32;
 
@@ -10,6 +12,8 @@ pub struct FormulaPlace {
     pub x: f64,
     /// Coordinate [length].
     pub y: f64,
+    /// Coordinate, 0 in the plane [length].
+    pub z: f64,
     /// Fraction of the arc length along the group, 0 to 1.
     pub s: f64,
     /// Load factor within the step, 0 to 1.
@@ -23,6 +27,8 @@ pub enum Variable {
     X,
     /// Coordinate y.
     Y,
+    /// Coordinate z.
+    Z,
     /// Fraction of the arc length along the group.
     S,
     /// Load factor within the step.
@@ -45,6 +51,8 @@ pub struct FormulaFault {
 pub(super) enum Op {
     Number(f64),
     Variable(Variable),
+    /// The field of this number.
+    Random(usize),
     Add,
     Subtract,
     Multiply,
@@ -58,7 +66,7 @@ impl Op {
     /// Number of operands.
     pub(super) fn takes(&self) -> usize {
         match self {
-            Op::Number(_) | Op::Variable(_) => 0,
+            Op::Number(_) | Op::Variable(_) | Op::Random(_) => 0,
             Op::One(_) => 1,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(_) => 2,
             Op::Three(_) => 3,
@@ -68,13 +76,14 @@ impl Op {
 
 impl Variable {
     /// All of them.
-    pub const ALL: [Variable; 4] = [Variable::X, Variable::Y, Variable::S, Variable::LoadFactor];
+    pub const ALL: [Variable; 5] = [Variable::X, Variable::Y, Variable::Z, Variable::S, Variable::LoadFactor];
 
     /// Its name in a formula.
     pub fn name(self) -> &'static str {
         match self {
             Variable::X => "x",
             Variable::Y => "y",
+            Variable::Z => "z",
             Variable::S => "s",
             Variable::LoadFactor => "load_factor",
         }
@@ -82,7 +91,7 @@ impl Variable {
 }
 
 /// Runs postfix code, whose need of stack was checked when it was compiled.
-pub(super) fn evaluate(code: &[Op], place: &FormulaPlace) -> f64 {
+pub(super) fn evaluate(code: &[Op], fields: &[RandomField], place: &FormulaPlace) -> f64 {
     let mut stack = [0.0; STACK];
     let mut height = 0;
     for op in code {
@@ -92,6 +101,8 @@ pub(super) fn evaluate(code: &[Op], place: &FormulaPlace) -> f64 {
             Op::Number(value) => value,
             Op::Variable(Variable::X) => place.x,
             Op::Variable(Variable::Y) => place.y,
+            Op::Variable(Variable::Z) => place.z,
+            Op::Random(field) => fields[field].at(place.x, place.y, place.z),
             Op::Variable(Variable::S) => place.s,
             Op::Variable(Variable::LoadFactor) => place.load_factor,
             Op::Add => a + stack[height + 1],

@@ -34,6 +34,11 @@ impl Value {
         }
     }
 
+    /// True if it is the number 0.
+    pub fn is_zero(&self) -> bool {
+        *self == Value::Number(0.0)
+    }
+
     /// True if the value depends on a variable.
     pub fn uses(&self, variable: Variable) -> bool {
         match self {
@@ -46,6 +51,12 @@ impl Value {
 impl Default for Value {
     fn default() -> Value {
         Value::Number(0.0)
+    }
+}
+
+impl From<Expression> for Value {
+    fn from(expression: Expression) -> Value {
+        Value::Expression(Arc::new(expression))
     }
 }
 
@@ -116,7 +127,7 @@ impl JsonSchema for Value {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "type": ["number", "string"],
-            "description": "A number, or a formula in x, y, s (0…1 along the group), load_factor (0…1 within the step), \
+            "description": "A number, or a formula in x, y, z, s (0…1 along the group), load_factor (0…1 within the step), \
                             pi and e, such as \"5*cos(pi*x)\"."
         })
     }

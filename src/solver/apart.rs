@@ -11,9 +11,18 @@ pub(super) const FREE: f64 = 1e-12;
 pub(super) const LOOSE: f64 = 1e-10;
 const APART: f64 = 1e-7;
 
-/// True if no point of an interface resists an opening.
-pub(super) fn opens_freely(stiffness: &[f64], intact: &[f64]) -> bool {
-    stiffness.chunks_exact(intact.len()).all(|d| d[0].abs() < FREE * intact[0])
+/// Stiffnesses of the law points of an interface before anything has cracked or slipped, by rows.
+pub(super) fn intact<L: Respond>(form: &impl Form, laws: &L, k: usize) -> Vec<f64> {
+    let coupling = &form.interfaces()[k].coupling;
+    let c = coupling.components;
+    let mut intact = vec![0.0; c * c * coupling.points.len()];
+    intact.chunks_exact_mut(c * c).enumerate().for_each(|(p, d)| laws.initial_stiffness(k, p, d));
+    intact
+}
+
+/// True if no point of an interface of c components resists an opening.
+pub(super) fn opens_freely(stiffness: &[f64], intact: &[f64], c: usize) -> bool {
+    stiffness.iter().zip(intact).step_by(c * c).all(|(d, intact)| d.abs() < FREE * intact)
 }
 
 /// The forces of the interfaces, with a push on those that do not resist it; none if all do.
@@ -26,15 +35,15 @@ pub(super) fn moved_apart<L: Respond>(
     for (a, &k) in form.active().iter().enumerate() {
         let interface = &form.interfaces()[k];
         let c = interface.coupling.components;
-        let mut intact = vec![0.0; c * c];
-        laws.initial_stiffness(k, &mut intact);
-        if !opens_freely(&now.stiffness[a], &intact) {
+        let intact = intact(form, laws, k);
+        if !opens_freely(&now.stiffness[a], &intact, c) {
             continue;
         }
         any = true;
         let largest = now.jumps[a].iter().fold(0.0_f64, |most, jump| most.max(jump.abs()));
         let mut push = vec![0.0; now.jumps[a].len()];
-        push.chunks_exact_mut(c).for_each(|push| push[0] = -LOOSE * intact[0] * APART * largest);
+        let normal = intact.iter().step_by(c * c);
+        push.iter_mut().step_by(c).zip(normal).for_each(|(push, k)| *push = -LOOSE * k * APART * largest);
         forces[a].iter_mut().zip(interface.gather(&push)).for_each(|(force, push)| *force += push);
     }
     any.then_some(forces)

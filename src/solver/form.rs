@@ -22,8 +22,8 @@ pub trait Respond: Sync {
     /// Energy dissipated per area since the last accepted increment, and its derivative by the jump.
     fn dissipation<'m>(&self, memory: &'m Self::Memory) -> (f64, &'m [f64]);
 
-    /// Fills the derivative before anything has cracked or slipped.
-    fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]);
+    /// Fills the derivative of a law point before anything has cracked or slipped.
+    fn initial_stiffness(&self, interface: usize, point: usize, stiffness: &mut [f64]);
 }
 
 /// One way to write the equilibrium.

@@ -12,7 +12,7 @@
 //! turns, full steps run in circles.
 
 use super::aim::Aim;
-use super::apart::{FREE, LOOSE, moved_apart, opens_freely};
+use super::apart::{FREE, LOOSE, intact, moved_apart, opens_freely};
 use super::evaluation::{Evaluation, evaluate, unconverged};
 use super::{Affine, Constraint, Form, Iterate, NewtonSettings, PathPoint, Respond, Unconverged};
 use crate::assembly::InterfaceTangent;
@@ -213,17 +213,13 @@ impl Newton {
         for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
             let interface = &form.interfaces()[k];
             if settings.initial_tangent {
-                let mut stiffness = stiffness.clone();
-                let c = interface.coupling.components;
-                stiffness.chunks_exact_mut(c * c).for_each(|d| laws.initial_stiffness(k, d));
-                tangent.fill(interface, &stiffness);
+                tangent.fill(interface, &intact(form, laws, k));
             } else {
                 let mut stiffness = stiffness.clone();
                 let c = interface.coupling.components;
-                let mut intact = vec![0.0; c * c];
-                laws.initial_stiffness(k, &mut intact);
-                let normal = if opens_freely(&stiffness, &intact) { LOOSE } else { FREE };
-                for d in stiffness.chunks_exact_mut(c * c) {
+                let intact = intact(form, laws, k);
+                let normal = if opens_freely(&stiffness, &intact, c) { LOOSE } else { FREE };
+                for (d, intact) in stiffness.chunks_exact_mut(c * c).zip(intact.chunks_exact(c * c)) {
                     for i in (0..c * c).step_by(c + 1) {
                         let least = if i == 0 { normal } else { FREE } * intact[i];
                         if d[i].abs() < least {

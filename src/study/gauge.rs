@@ -57,8 +57,8 @@ impl<'a> Gauge<'a> {
             }
         }
         let model = &problem.model;
-        let stiffness = model.interfaces.iter().zip(problem.laws());
-        let stiffness = stiffness.map(|(interface, law)| stiffness_number(model, interface, law));
+        let stiffness = model.interfaces.iter().zip(&problem.interfaces);
+        let stiffness = stiffness.map(|(interface, bound)| stiffness_number(model, interface, &bound.laws));
         self.method = totals.method.name();
         self.counts = IndexMap::from([
             ("nodes", model.nodes() as f64),
@@ -107,8 +107,8 @@ fn on_interface(model: &Model, fields: &[Vec<Local>], of: &str, exact: &[Value; 
     let coupling = &model.interfaces[k].coupling;
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
-        let [x, y, _] = point.position;
-        let place = FormulaPlace { x, y, s: point.s / coupling.midplane.length, load_factor: 1.0 };
+        let [x, y, z] = point.position;
+        let place = FormulaPlace { x, y, z, s: point.s / coupling.midplane.length, load_factor: 1.0 };
         add(&mut sums, point.weight, [field[N], field[T]], exact, &place);
     }
     Some(sums)
@@ -132,7 +132,7 @@ fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Optio
             }
             let x: Vec<[f64; 2]> = nodes.iter().map(|&node| in_plane(mesh.points[node])).collect();
             let area = weight * determinant(&jacobian(&values, &x));
-            let place = FormulaPlace { x: place[0], y: place[1], s: 0.0, load_factor: 1.0 };
+            let place = FormulaPlace { x: place[0], y: place[1], z: 0.0, s: 0.0, load_factor: 1.0 };
             add(&mut sums, area, moved, exact, &place);
         }
     }

@@ -2,7 +2,7 @@
 #![allow(dead_code, missing_docs, clippy::unwrap_used)] // each test takes what it needs
 
 use midplane::law::path::{Controlled, LawPath, PathRow, drive};
-use midplane::law::{Cracking, Integration, Law, Local, State, Unloading, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, PointLaw, State, Unloading, WORK};
 use serde_json::Value;
 
 /// Parameters of the paper's example 2 (§4.2) with the energies read as N/mm, in MPa and m.

@@ -11,7 +11,6 @@ use super::strategy::{Operations, choose, condensed_interfaces};
 use crate::assembly::{Pattern, Symmetric};
 use crate::error::Result;
 use crate::history::{Clock, memory};
-use crate::law::diagonal_rows;
 use crate::problem::Problem;
 use crate::scene::{Solution, Strategy, Tangent};
 use crate::solver::{
@@ -207,12 +206,11 @@ fn settings(solution: &Solution) -> NewtonSettings {
 /// Base stiffness of an interface: its own unless its jumps are unknowns. Then at most E/h, which keeps floating bodies
 /// in place: E of the softer body, h the mean length of the coarser side's edges. More than the law's own would only cancel.
 fn base_stiffness(problem: &Problem, k: usize, condensed_interfaces: &[usize]) -> Vec<f64> {
-    let (interface, law) = (&problem.model.interfaces[k], &problem.interfaces[k].law);
+    let (interface, laws) = (&problem.model.interfaces[k], &problem.interfaces[k].laws);
     let coupling = &interface.coupling;
     let edges = coupling.facets(0).min(coupling.facets(1));
     let young = interface.subdomains.map(|subdomain| problem.model.subdomains[subdomain].elasticity.young);
     let soft = young[0].min(young[1]) * edges as f64 / coupling.midplane.length;
     let most = if condensed_interfaces.contains(&k) { soft } else { f64::INFINITY };
-    let k = law.elastic_stiffness().map(|stiffness| stiffness.min(most));
-    diagonal_rows(&k[..coupling.components]).repeat(interface.coupling.points.len())
+    laws.diagonals(coupling, most)
 }

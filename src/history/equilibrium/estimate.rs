@@ -41,22 +41,24 @@ fn is_straight(law: &Law, old: &law::State, answer: &PointResponse) -> bool {
     !k.into_iter().enumerate().any(|(i, k)| differs(i, k))
 }
 
-/// The estimate for what was found last under the load in the middle; none if the way there is straight.
+/// The estimate for what was found last, after a growth of the load factor, under the load in the middle; none if the way there is straight.
 pub(super) fn error_of<F: Form>(
     view: &View<F>,
     old: &[Vec<law::State>],
     found: &Converged,
     way: Way,
+    advance: f64,
 ) -> Option<Estimate> {
     let problem = view.problem;
     let straight = found.interfaces.iter().all(|of| {
-        let law = &problem.interfaces[of.interface].law;
-        old[of.interface].iter().zip(&of.memory).all(|(old, new)| is_straight(law, old, new))
+        let laws = &problem.interfaces[of.interface].laws;
+        let mut points = old[of.interface].iter().zip(&of.memory).enumerate();
+        points.all(|(p, (old, new))| is_straight(laws.at(p), old, new))
     });
     if straight {
         return None;
     }
-    Some(over_the_middle(view, old, found, way).unwrap_or(Estimate {
+    Some(over_the_middle(view, old, found, way, advance).unwrap_or(Estimate {
         traction: f64::INFINITY,
         dissipation: f64::INFINITY,
         work: f64::INFINITY,
@@ -72,11 +74,12 @@ fn over_the_middle<F: Form>(
     old: &[Vec<law::State>],
     found: &Converged,
     way: Way,
+    advance: f64,
 ) -> Option<Estimate> {
     let View { problem, prepared, form, .. } = *view;
     let target_of = |load| target(form, prepared, load).ok();
     let target = target_of(way.middle)?;
-    let laws = Laws { problem, old, viscosity: None, lags: false, intact: None };
+    let laws = Laws::alone(problem, old, 0.5 * advance);
     let x: Vec<f64> = view.unknowns.iter().zip(view.found).map(|(a, b)| 0.5 * (a + b)).collect();
     // on a path the load factor is corrected too, so that the middle stays on the plane across the way
     let across = match way.ends {
@@ -94,7 +97,7 @@ fn over_the_middle<F: Form>(
     for (&k, memory) in form.active().iter().zip(&better.memory) {
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
-    let onwards = Laws { problem, old: &states, viscosity: None, lags: false, intact: None };
+    let onwards = Laws::alone(problem, &states, 0.5 * advance);
     let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
@@ -112,7 +115,8 @@ fn over_the_middle<F: Form>(
             bends += area * bend.dot(&moved).abs() / 3.0;
             estimate.cracked |= new.dissipation > 0.0
                 && problem.interfaces[of.interface]
-                    .law
+                    .laws
+                    .at(p)
                     .onset(new.state.jump, old)
                     .is_some_and(|share| share > ON);
             works += area * 0.5 * (old.traction + new.state.traction).dot(&moved).abs();
@@ -134,8 +138,10 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
         let states = &snapshot.states[k];
         let leading = |v: Local| <[f64; 3]>::from(v).into_iter().take(problem.model.components);
         let tractions: Vec<f64> = if states.is_empty() {
-            let d = Local::from(problem.interfaces[k].law.elastic_stiffness());
-            snapshot.jumps[k].iter().flat_map(|r| leading(d.component_mul(r))).collect()
+            let laws = &problem.interfaces[k].laws;
+            let d = |p: usize| Local::from(laws.at(p).elastic_stiffness());
+            let jumps = snapshot.jumps[k].iter().enumerate();
+            jumps.flat_map(|(p, r)| leading(d(p).component_mul(r))).collect()
         } else {
             states.iter().flat_map(|state| leading(state.traction)).collect()
         };

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::Make;
 use super::newton::NewtonEngine;
 use crate::assembly::{Pattern, Symmetric};
-use crate::law::diagonal_rows;
 use crate::problem::Problem;
 use crate::solver::{Base, Condensation, Condensed, Continuum, FloatingSubdomains, NewtonSettings, Primal};
 
@@ -46,11 +45,8 @@ pub(super) fn condensed<'a>(
     settings: NewtonSettings,
 ) -> NewtonEngine<'a, Condensed<'a>> {
     let size: usize = condensed_interfaces.iter().map(|&k| problem.model.interfaces[k].size()).sum();
-    let intact: Vec<Vec<f64>> = (problem.laws().zip(&problem.model.interfaces))
-        .map(|(law, interface)| {
-            let k = law.elastic_stiffness();
-            diagonal_rows(&k[..interface.coupling.components]).repeat(interface.coupling.points.len())
-        })
+    let intact: Vec<Vec<f64>> = (problem.interfaces.iter().zip(&problem.model.interfaces))
+        .map(|(bound, interface)| bound.laws.diagonals(&interface.coupling, f64::INFINITY))
         .collect();
     let mut base = bases(problem, continuum, stiffness);
     let make = move |constrained: &[bool]| {

@@ -14,10 +14,10 @@ pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged
     let mut fractions: Vec<Vec<f64>> = old.iter().map(|states| vec![f64::NAN; states.len()]).collect();
     let mut first = 1.0_f64;
     for of in &found.interfaces {
-        let law = &problem.interfaces[of.interface].law;
+        let laws = &problem.interfaces[of.interface].laws;
         for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
             if new.dissipation > 0.0
-                && let Some(fraction) = law.onset_or_on(new.state.jump, old)
+                && let Some(fraction) = laws.at(p).onset_or_on(new.state.jump, old)
             {
                 fractions[of.interface][p] = fraction;
                 first = first.min(fraction);
@@ -41,7 +41,7 @@ pub(super) fn crack<F: Form>(
     let problem = view.problem;
     let Some(intact) = late(problem, old, found) else { return Some(true) };
     let target = target(&*view.form, view.prepared, end).ok()?;
-    let laws = Laws { problem, old, viscosity: None, lags: false, intact: Some(&intact) };
+    let laws = Laws { intact: Some(&intact), ..Laws::alone(problem, old, f64::INFINITY) };
     let (form, newton) = (&mut *view.form, &mut *view.newton);
     let here = ask(form, &laws, view.found).ok()?;
     let residual = form.residual(view.found, &here.forces, &target);
@@ -49,9 +49,9 @@ pub(super) fn crack<F: Form>(
     let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        for ((jump, old), intact) in jumps.chunks_exact(problem.model.components).zip(&old[k]).zip(&intact[k])
-        {
-            if *intact && problem.interfaces[k].law.onset(local(jump), old).is_some() {
+        let points = jumps.chunks_exact(problem.model.components).zip(&old[k]).zip(&intact[k]);
+        for (p, ((jump, old), intact)) in points.enumerate() {
+            if *intact && problem.interfaces[k].laws.at(p).onset(local(jump), old).is_some() {
                 return Some(true);
             }
         }
@@ -71,7 +71,7 @@ pub(super) fn first_onset<F: Form>(
     let target_of = |load| target(&*view.form, view.prepared, load).ok();
     let (target, before) = (target_of(load)?, target_of(now)?);
     let problem = view.problem;
-    let laws = Laws::alone(problem, old);
+    let laws = Laws::alone(problem, old, f64::INFINITY);
     let (form, newton) = (&mut *view.form, &mut *view.newton);
     let end = match end {
         Some(end) => end,
@@ -83,8 +83,8 @@ pub(super) fn first_onset<F: Form>(
     let mut first = 1.0_f64;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        for (jump, old) in jumps.chunks_exact(problem.model.components).zip(&old[k]) {
-            let fraction = problem.interfaces[k].law.onset(local(jump), old);
+        for (p, (jump, old)) in jumps.chunks_exact(problem.model.components).zip(&old[k]).enumerate() {
+            let fraction = problem.interfaces[k].laws.at(p).onset(local(jump), old);
             first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));
         }
     }

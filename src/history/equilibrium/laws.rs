@@ -2,7 +2,7 @@
 //! their jumps.
 
 use crate::history::converged::PointResponse;
-use crate::law::{self, Law, Local, local, write_diagonal, write_rows};
+use crate::law::{self, Local, local, write_diagonal, write_rows};
 use crate::problem::Problem;
 use crate::solver::Respond;
 
@@ -22,14 +22,20 @@ pub(in crate::history) struct Laws<'a> {
     pub(in crate::history) viscosity: Option<f64>,
     /// Friction lags wherever it is steep, not only where its slope has no bound.
     pub(in crate::history) lags: bool,
+    /// Growth of the step's load factor since the states: time, for laws with a viscosity of their own.
+    pub(in crate::history) advance: f64,
     /// Law points of every interface that are held elastic, if any are.
     pub(in crate::history) intact: Option<&'a [Vec<bool>]>,
 }
 
 impl<'a> Laws<'a> {
     /// The laws alone.
-    pub(in crate::history) fn alone(problem: &'a Problem, old: &'a [Vec<law::State>]) -> Laws<'a> {
-        Laws { problem, old, viscosity: None, lags: false, intact: None }
+    pub(in crate::history) fn alone(
+        problem: &'a Problem,
+        old: &'a [Vec<law::State>],
+        advance: f64,
+    ) -> Laws<'a> {
+        Laws { problem, old, viscosity: None, lags: false, advance, intact: None }
     }
 
     /// The answer of the law alone.
@@ -39,10 +45,11 @@ impl<'a> Laws<'a> {
         point: usize,
         jump: Local,
     ) -> Result<law::Response, String> {
-        let law = &self.problem.interfaces[interface].law;
+        let law = self.problem.interfaces[interface].laws.at(point);
         let old = &self.old[interface][point];
         let integration = self.problem.interfaces[interface].integration;
         let answer = match self.viscosity {
+            _ if law.is_viscous() => law.respond_over(jump, old, integration, self.advance),
             Some(_) => law.respond_lagged(jump, old, integration, self.lags),
             None => law.respond(jump, old, integration),
         };
@@ -61,9 +68,9 @@ impl Respond for Laws<'_> {
         traction: &mut [f64],
         stiffness: &mut [f64],
     ) -> Result<PointResponse, String> {
-        let law = &self.problem.interfaces[interface].law;
+        let law = self.problem.interfaces[interface].laws.at(point);
         let components = jump.len();
-        if let Law::Elastic(_) = law {
+        if law.is_linear() {
             let k = law.elastic_stiffness();
             (0..components).for_each(|i| traction[i] = k[i] * jump[i]); // what it starts with is a load
             write_diagonal(&k[..components], stiffness);
@@ -100,8 +107,8 @@ impl Respond for Laws<'_> {
         (memory.dissipation, &memory.gradient.as_slice()[..self.problem.model.components])
     }
 
-    fn initial_stiffness(&self, interface: usize, stiffness: &mut [f64]) {
-        let k = self.problem.interfaces[interface].law.elastic_stiffness();
+    fn initial_stiffness(&self, interface: usize, point: usize, stiffness: &mut [f64]) {
+        let k = self.problem.interfaces[interface].laws.at(point).elastic_stiffness();
         write_diagonal(&k[..self.problem.model.components], stiffness);
     }
 }

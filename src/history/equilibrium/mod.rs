@@ -49,6 +49,8 @@ pub(in crate::history) struct Search {
     trusted: bool,
     /// No increment of the step has been tried yet.
     first: bool,
+    /// Load factor of the last accepted state in its step.
+    load_factor: f64,
 }
 
 impl Search {

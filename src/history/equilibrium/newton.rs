@@ -19,6 +19,8 @@ use crate::solver::{
 const NEAR: f64 = 1e-3;
 /// Largest relative residual of a viscous step: what is stored is found without viscosity.
 const CREEP: f64 = 1e-7;
+/// Largest error of displacements against the condensed form that counts as their rounding.
+const ROUNDED: f64 = 1e-6;
 /// Most corrections of what the displacements say against the condensed form.
 const DEFECTS: usize = 3;
 
@@ -33,6 +35,8 @@ pub(super) struct NewtonEngine<'a, F> {
     search: Search,
     /// Unknowns, forces of the interfaces and viscous tractions of what was found last.
     found: (Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>),
+    /// Growth of the load factor to what was sought last.
+    sought: f64,
     /// The step's loads are prepared; so are its measures.
     prepared: bool,
     measured: bool,
@@ -50,11 +54,28 @@ impl<'a, F> NewtonEngine<'a, F> {
         let search = Search { before: zero(), unknowns: zero(), first: true, ..Search::default() };
         let (linear, found) = (active(problem).is_empty(), (zero(), Vec::new(), Vec::new()));
         let (prepared, measured) = (false, false);
-        NewtonEngine { problem, linear, settings, make, form: None, search, found, prepared, measured }
+        NewtonEngine {
+            problem,
+            linear,
+            settings,
+            make,
+            form: None,
+            search,
+            found,
+            sought: 0.0,
+            prepared,
+            measured,
+        }
     }
 }
 
 impl<F: Form> NewtonEngine<'_, F> {
+    /// Growth of the load factor since the last accepted state, kept for what is found.
+    fn advance(&mut self, load: &StepLoad) -> f64 {
+        self.sought = (load.load_factor - self.search.load_factor).max(0.0);
+        self.sought
+    }
+
     fn view(&self) -> Option<View<'_, F>> {
         let (problem, prepared) = (self.problem, self.prepared);
         let (_, form, _) = self.form.as_ref()?;
@@ -87,10 +108,18 @@ impl<F: Form> NewtonEngine<'_, F> {
         let (mut residuals, mut passes) = (Vec::new(), 0);
         // the first increment of a step shows whether displacements are needed against the rounding of the others
         let complete = complete || self.search.first || !self.search.trusted;
+        let mut kept: Option<(Iterate<PointResponse>, NodalSolution, f64)> = None;
         let (iterate, solution) = loop {
             let starts = [&near, &start];
-            let iterate = newton.solve(form, laws, &starts, &target, self.settings);
-            let iterate = iterate.map_err(Failure::Unconverged)?;
+            let iterate = match (newton.solve(form, laws, &starts, &target, self.settings), kept.take()) {
+                (Ok(iterate), _) => iterate,
+                // what displacements say is corrected as far as rounding lets it
+                (Err(_), Some((iterate, solution, left))) if left <= ROUNDED => {
+                    residuals.push(left);
+                    break (iterate, Some(solution));
+                }
+                (Err(why), _) => return Err(Failure::Unconverged(why)),
+            };
             residuals.extend_from_slice(&iterate.residuals[usize::from(passes > 0)..]);
             if !complete {
                 break (iterate, None);
@@ -104,7 +133,8 @@ impl<F: Form> NewtonEngine<'_, F> {
                 break (iterate, Some(solution));
             }
             target.iter_mut().zip(&defect).for_each(|(b, defect)| *b -= defect);
-            start = iterate.x;
+            start.clone_from(&iterate.x);
+            kept = Some((iterate, solution, left));
         };
         self.search.trusted &= passes <= 1;
         self.search.first = false;
@@ -169,6 +199,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             self.search.trusted = self.measured;
             self.search.first = true;
         }
+        self.search.load_factor = 0.0;
     }
 
     fn solve(
@@ -183,7 +214,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             self.search.onwards(NEAR * changes),
             self.search.onwards(if near { NEAR * changes } else { changes }),
         ];
-        let laws = Laws::alone(self.problem, &state.snapshot.states);
+        let laws = Laws::alone(self.problem, &state.snapshot.states, self.advance(load));
         self.solve_from(starts, &laws, load, complete)
     }
 
@@ -196,8 +227,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     ) -> Result<Converged, Failure> {
         let starts = [self.search.unknowns.clone(), self.search.onwards(ahead)];
         let lags = self.search.lags && may_lag(self.problem, viscosity);
-        let laws =
-            Laws { viscosity: Some(viscosity), lags, ..Laws::alone(self.problem, &state.snapshot.states) };
+        let alone = Laws::alone(self.problem, &state.snapshot.states, self.advance(load));
+        let laws = Laws { viscosity: Some(viscosity), lags, ..alone };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
         self.settings = NewtonSettings { tolerance, initial_tangent: false, ..settings };
@@ -219,7 +250,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn estimate(&mut self, state: &ModelState, found: &Converged, way: Way) -> Option<Estimate> {
-        estimate::error_of(&self.view()?, &state.snapshot.states, found, way)
+        estimate::error_of(&self.view()?, &state.snapshot.states, found, way, self.sought)
     }
 
     fn is_reached(&mut self, state: &ModelState, found: &Converged, end: &StepLoad) -> bool {
@@ -249,7 +280,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         path: &PathSearch,
     ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        let laws = Laws::alone(self.problem, &state.snapshot.states);
+        let laws = Laws::alone(self.problem, &state.snapshot.states, f64::INFINITY);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = PathPoint { x: self.search.unknowns.clone(), load_factor };
@@ -298,5 +329,6 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
 
     fn accept(&mut self) {
         self.search.accept(&mut self.found);
+        self.search.load_factor += self.sought;
     }
 }

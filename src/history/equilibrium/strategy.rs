@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Result;
 use crate::history::memory;
-use crate::law::Law;
 use crate::problem::Problem;
 use crate::scene::Strategy;
 use crate::solver::{Continuum, Method};
@@ -30,8 +29,8 @@ pub struct Operations {
 
 /// Interfaces that are not elastic.
 pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
-    let laws = problem.laws().enumerate();
-    laws.filter(|(_, law)| !matches!(law, Law::Elastic(_))).map(|(k, _)| k).collect()
+    let interfaces = problem.interfaces.iter().enumerate();
+    interfaces.filter(|(_, interface)| !interface.laws.kind().is_linear()).map(|(k, _)| k).collect()
 }
 
 /// Interfaces whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear

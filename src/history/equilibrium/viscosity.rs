@@ -22,8 +22,7 @@ pub(super) fn account(
     let (mut released, mut bent) = (0.0, 0.0);
     for (a, &k) in active.iter().enumerate() {
         let points = &problem.model.interfaces[k].coupling.points;
-        let law = &problem.interfaces[k].law;
-        let is_watched = law.dilates() || law.closes();
+        let is_watched = problem.interfaces[k].laws.all().iter().any(|law| law.dilates() || law.closes());
         let mut now = Vec::with_capacity(components * points.len());
         for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next

@@ -19,6 +19,7 @@
 //! friction laws (§3.2); classical otherwise.
 
 mod jet;
+mod lagged;
 mod turned;
 mod way;
 
@@ -28,7 +29,7 @@ use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, error_at, not_negative, positive};
 use super::local::{Local, N, shear};
-use super::{Response, State};
+use super::{Integration, OWN, PointLaw, Response, State, Strength, Unresolved};
 
 use turned::Turned;
 
@@ -55,11 +56,11 @@ const STICK: u8 = 0;
 /// Status of a closed point that slides.
 const SLIP: u8 = 2;
 /// Status of an open point.
-pub(super) const OPEN: u8 = 4;
+const OPEN: u8 = 4;
 
-impl Coulomb {
+impl PointLaw for Coulomb {
     /// Stiffnesses above zero; friction, cohesion and dilatancy zero or more; dilatancy at most the friction.
-    pub fn check(&self) -> Result<(), Inadmissible> {
+    fn check(&self) -> Result<(), Inadmissible> {
         positive("normal_stiffness", self.normal_stiffness)?;
         positive("tangential_stiffness", self.tangential_stiffness)?;
         not_negative("friction_coefficient", self.friction_coefficient)?;
@@ -75,30 +76,67 @@ impl Coulomb {
         Ok(())
     }
 
-    /// Excess of a traction over the surface |τ| ≤ c − μ σ, σ ≤ 0 [stress].
-    pub(super) fn excess(&self, traction: Local) -> f64 {
+    fn elastic_stiffness(&self) -> [f64; 3] {
+        [self.normal_stiffness, self.tangential_stiffness, self.tangential_stiffness]
+    }
+
+    fn takes_gap(&self) -> bool {
+        true
+    }
+
+    fn strength(&self, _: &State) -> Option<Strength> {
+        let (cohesion, tan_friction) = (self.cohesion, self.friction_coefficient);
+        Some(Strength { tensile_strength: 0.0, cohesion, tan_friction })
+    }
+
+    /// Excess over the surface |τ| ≤ c − μ σ, σ ≤ 0.
+    fn excess(&self, traction: &Local, _: &[f64; OWN]) -> f64 {
         let sigma = traction[N];
-        sigma.max(shear(&traction) + self.friction_coefficient * sigma - self.cohesion)
+        sigma.max(shear(traction) + self.friction_coefficient * sigma - self.cohesion)
+    }
+
+    /// Open faces carry nothing.
+    fn at_rest(&self, jump: Local, jump_plastic: Local, _: &[f64; OWN]) -> Local {
+        let elastic = jump - jump_plastic;
+        match elastic[N] > 0.0 {
+            true => Local::zeros(),
+            false => Local::from(self.elastic_stiffness()).component_mul(&elastic),
+        }
     }
 
     /// Open, stick or slip at the end of the straight way from the old jump.
-    pub(super) fn respond(&self, jump: Local, old: &State) -> Response {
+    fn respond(&self, jump: Local, old: &State, _: Integration) -> Result<Response, Unresolved> {
         let turned = Turned::new(jump, old);
         let end =
             way::follow(self, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
         let [sigma, tau] = end.traction;
         let traction = turned.space(Vector2::new(sigma.value, tau.value));
         let jump_plastic = turned.irreversible(end.jump_plastic, jump);
-        Response {
+        Ok(Response {
             traction,
             stiffness: turned.stiffness(&end.traction),
             state: State { jump, traction, jump_plastic, status: end.status, ..*old },
             dissipation: end.dissipation.value,
             dissipation_gradient: turned.space(end.dissipation.gradient),
             released: end.released,
-        }
+        })
     }
 
+    fn respond_lagged(
+        &self,
+        jump: Local,
+        old: &State,
+        integration: Integration,
+        _: bool,
+    ) -> Result<Response, Unresolved> {
+        match self.dilatancy == 0.0 {
+            true => Ok(lagged::answer(self, jump, old)),
+            false => self.respond(jump, old, integration),
+        }
+    }
+}
+
+impl Coulomb {
     /// Elastic energy of shear, τ²/(2 K_T) [stress × length].
     fn shear_energy(&self, tau: f64) -> f64 {
         0.5 * tau * tau / self.tangential_stiffness

@@ -2,15 +2,17 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::super::local::{Local, N, narrow, shear, widen, widen_matrix};
+use super::super::local::{Local, N, diagonal, narrow, shear, widen, widen_matrix};
 use super::super::{Response, State, Unresolved};
-use super::crack::{Crack, Line, Regime};
+use super::control::Lengths;
+use super::crack::{Crack, Regime};
 use super::elastic::{compliant, margin, stiff};
 use super::march::{Change, Slopes, WayPoint, euler_step};
 use super::mode::Mode;
+use super::prediction::Line;
 use super::surface::Surface;
 use super::variables::WORK;
-use super::way::{LawWay, Lengths};
+use super::way::LawWay;
 
 /// A state that does not move is outside above so many times the margin.
 const LEFT_OUTSIDE: f64 = 1e3;
@@ -59,6 +61,9 @@ pub(super) fn march<const D: usize>(
 ) -> Result<Response, Unresolved> {
     let change: SVector<f64, D> = jump - narrow(&old.jump);
     let start = WayPoint::start(surface, old);
+    if let Some(answer) = straight(surface, jump, old, &start.crack) {
+        return Ok(answer);
+    }
     let mut way = LawWay::new(surface, start, change);
     if change == SVector::<f64, D>::zeros() {
         let outside = surface.at(old.own[WORK]).hyperbola(start.traction[N], shear(&start.traction));
@@ -72,6 +77,46 @@ pub(super) fn march<const D: usize>(
     }
     way.finish(lengths).map_err(|rest| Unresolved::SnapBack { jump: widen(&(jump - rest)) })?;
     Ok(response(surface, jump, old, &way.point, &way.slopes))
+}
+
+/// The answer of a way that is elastic and within one regime from end to end; none for any other.
+fn straight<const D: usize>(
+    surface: &Surface,
+    jump: SVector<f64, D>,
+    old: &State,
+    crack: &Crack,
+) -> Option<Response> {
+    let change: SVector<f64, D> = jump - narrow(&old.jump);
+    let crack = &crack.heading(surface, old.traction[N], change[N]);
+    let stays = crack.border(surface, change[N]).is_none_or(|gap| (gap - crack.gap) / change[N] > 1.0);
+    if crack.regime == Regime::Free || !stays || change == SVector::<f64, D>::zeros() {
+        return None;
+    }
+    let k = [crack.slope(surface), surface.kt];
+    let mut traction: SVector<f64, D> =
+        narrow(&old.traction) + SVector::<f64, D>::from_fn(|i, _| k[usize::from(i != N)] * change[i]);
+    if surface.at(old.own[WORK]).hyperbola(traction[N], shear(&traction)) > margin(surface, traction) {
+        return None;
+    }
+    if crack.regime == Regime::Secant {
+        traction[N] = crack.bridge * (crack.gap + change[N]);
+    }
+    let told = crack.told(surface, traction[N], change[N] > 0.0);
+    let regime = told.unwrap_or(crack.regime);
+    let slip = if told == Some(Regime::Contact) { 0.0 } else { crack.slip };
+    let crack = Crack { regime, slip, ..*crack };
+    let (jump, traction) = (widen(&jump), widen(&traction));
+    let status = status(surface, Mode::Elastic, old.own[WORK], regime);
+    let mut state = State { jump, traction, status, ..*old };
+    crack.store(surface, &mut state);
+    Some(Response {
+        traction,
+        stiffness: widen_matrix(&diagonal::<D>(k[0], k[1]), surface.kt),
+        state,
+        dissipation: 0.0,
+        dissipation_gradient: Local::zeros(),
+        released: 0.0,
+    })
 }
 
 /// Fraction of the way to a jump at which the hyperbola is met; none if it is not.
@@ -126,7 +171,13 @@ fn response<const D: usize>(
         jump_plastic[N] = if end.crack.dilated { jump[N] - end.crack.gap } else { old.jump_plastic[N] };
     }
     let (jump, traction) = (widen(&jump), widen(&traction));
-    let mut state = State { jump, traction, jump_plastic, status: status(surface, end), ..*old };
+    let mut state = State {
+        jump,
+        traction,
+        jump_plastic,
+        status: status(surface, end.mode, end.work, end.crack.regime),
+        ..*old
+    };
     state.own[WORK] = end.work;
     end.crack.store(surface, &mut state);
     Response {
@@ -140,10 +191,10 @@ fn response<const D: usize>(
 }
 
 /// The mode; what is cracked and elastic is closed, or open and tied.
-fn status<const D: usize>(surface: &Surface, end: &WayPoint<D>) -> u8 {
-    match end.mode {
-        _ if end.crack.regime == Regime::Free => Mode::Open as u8,
-        Mode::Elastic if surface.closes && end.work > 0.0 => match end.crack.regime {
+fn status(surface: &Surface, mode: Mode, work: f64, regime: Regime) -> u8 {
+    match mode {
+        _ if regime == Regime::Free => Mode::Open as u8,
+        Mode::Elastic if surface.closes && work > 0.0 => match regime {
             Regime::Contact => CLOSED,
             _ => TIED,
         },

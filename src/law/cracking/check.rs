@@ -25,7 +25,7 @@ const HIGH_COMPRESSION: f64 = 10.0;
 
 impl Cracking {
     /// Every inequality the parameters must satisfy; the first broken one is named with its numbers.
-    pub fn check(&self) -> Result<(), Inadmissible> {
+    pub(super) fn admit(&self) -> Result<(), Inadmissible> {
         positive("normal_stiffness", self.normal_stiffness)?;
         positive("tangential_stiffness", self.tangential_stiffness)?;
         not_negative("tensile_strength", self.tensile_strength)?;
@@ -50,7 +50,7 @@ impl Cracking {
     }
 
     /// Warnings of admissible parameters: K_T too low for a smooth way past the peak in shear.
-    pub fn warnings(&self) -> Vec<Warning> {
+    pub(super) fn doubts(&self) -> Vec<Warning> {
         let (chi, c, kt) = (self.tensile_strength, self.cohesion, self.tangential_stiffness);
         let cohesion_loss = match c > 0.0 {
             true => c * c * self.alpha_cohesion.abs().exp() / self.fracture_energy_iia,
@@ -88,7 +88,7 @@ impl Cracking {
     }
 
     /// Steepest loss of traction per jump: in tension, in shear under compression and by the loss of tensile strength.
-    pub fn steepest_softening(&self) -> f64 {
+    pub(super) fn softens(&self) -> f64 {
         let per = |energy: f64, alpha: f64| if energy > 0.0 { alpha.abs().exp() / energy } else { 0.0 };
         let tension = per(self.fracture_energy_i, self.alpha_tensile_strength);
         let shear = per(self.fracture_energy_iia, self.alpha_cohesion);

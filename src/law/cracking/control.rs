@@ -9,7 +9,7 @@
 use nalgebra::SVector;
 
 use super::super::local::shear;
-use super::march::{TwoStages, WayPoint, two_stage_step};
+use super::march::{GAMMA, TwoStages, WayPoint, two_stage_step, within};
 use super::mode::Mode;
 use super::surface::Surface;
 
@@ -44,6 +44,17 @@ const USED_UP: f64 = 1.0 - 1e-9;
 const SNAP: f64 = 1e-3;
 /// So many shortest sub-steps may miss the bound before the whole way counts as a snap.
 const SNAPS: usize = 50;
+
+/// Source of the lengths of sub-steps.
+pub(super) enum Lengths<'a> {
+    /// Error control with this tolerance; the accepted lengths are appended to the record, if there is one.
+    Controlled(f64, Option<&'a mut Vec<f64>>),
+    /// Given beforehand; the last one reaches to the end whatever its length.
+    Given(&'a [f64]),
+}
+
+/// Among recorded lengths: the crack is free of stress from here on.
+pub(super) const PIECE_ENDS: f64 = 0.0;
 
 /// A sub-step done in halves.
 pub(super) struct Double<const D: usize> {
@@ -105,8 +116,8 @@ impl ErrorControl {
                 None => length,
             };
             let length = if left - length <= REMAINDER * length { left } else { length };
-            let (whole, _) = two_stage_step(surface, from, direction * length);
-            let step = in_halves(surface, from, direction, length);
+            let (whole, stages) = two_stage_step(surface, from, direction * length, None);
+            let step = in_halves(surface, from, direction, length, &stages);
             let misfit = (whole.traction - step.end.traction).amax();
             let strength = (whole.work - step.end.work).abs() * surface.loss();
             let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
@@ -146,17 +157,30 @@ pub(super) fn local_bound(surface: &Surface, tolerance: f64) -> f64 {
     LOCAL * tolerance * tolerance.sqrt() * surface.scale()
 }
 
-/// A sub-step in halves.
-pub(super) fn in_halves<const D: usize>(
+/// A sub-step in halves, which lie near what the whole one says.
+fn in_halves<const D: usize>(
+    surface: &Surface,
+    from: &WayPoint<D>,
+    direction: SVector<f64, D>,
+    length: f64,
+    whole: &TwoStages<D>,
+) -> Double<D> {
+    let change = direction * (0.5 * length);
+    let near = |start: f64| Some([start + 0.5 * GAMMA, start + 0.5].map(|x| within(from, whole, x)));
+    let (middle, first) = two_stage_step(surface, from, change, near(0.0));
+    let (end, second) = two_stage_step(surface, &middle, change, near(0.5));
+    Double { length, steps: [first, second], middle, end }
+}
+
+/// A sub-step of a given length in halves.
+pub(super) fn given<const D: usize>(
     surface: &Surface,
     from: &WayPoint<D>,
     direction: SVector<f64, D>,
     length: f64,
 ) -> Double<D> {
-    let change = direction * (0.5 * length);
-    let (middle, first) = two_stage_step(surface, from, change);
-    let (end, second) = two_stage_step(surface, &middle, change);
-    Double { length, steps: [first, second], middle, end }
+    let (_, whole) = two_stage_step(surface, from, direction * length, None);
+    in_halves(surface, from, direction, length, &whole)
 }
 
 /// Rounding of τ near a vertex at the origin: σ = 0 makes τ ~ √(χ c t), so what χ is rounded by counts c/τ times, up

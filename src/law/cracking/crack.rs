@@ -19,13 +19,14 @@
 
 use super::super::State;
 use super::super::local::N;
-use super::flow::Answer;
-use super::mode::{Mode, RIDING_SLOPE};
+use super::mode::RIDING_SLOPE;
 use super::surface::Surface;
 use super::variables::{BRIDGE, OPENING, SLIP_OPEN, WORK};
 
 /// A gap this close to the anchor, relative, is at it.
-const AT_ANCHOR: f64 = 1e-12;
+pub(super) const AT_ANCHOR: f64 = 1e-12;
+/// A traction this far from the secant, relative, is on it.
+const BESIDE: f64 = 1e-6;
 
 /// Parts of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,23 +39,6 @@ pub(super) enum Regime {
     Envelope,
     /// Spent and open: free of stress.
     Free,
-}
-
-/// The line that gives a trial σ_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Line {
-    /// σ + K_N Δr_n.
-    Carry,
-    /// k g.
-    Secant,
-    /// K_N (g − o), from below the anchor.
-    Beyond,
-    /// 0: the ties give way within a step.
-    Flat,
-    /// K_N g, from an open gap.
-    Touch,
-    /// K_N (g − M q): faces that ride on each other.
-    Ridden,
 }
 
 /// State of the normal jump at a point of the way.
@@ -73,19 +57,6 @@ pub(super) struct Crack {
     pub slip: f64,
     /// d has moved on the way.
     pub dilated: bool,
-}
-
-/// Trial tractions of T, and of C and Z.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Prediction {
-    pub sigma: f64,
-    pub line: Line,
-    pub sigma_faces: f64,
-    pub line_faces: Line,
-    /// Gap under the trial.
-    pub gap: f64,
-    /// In C faces ride on each other: they did not touch before.
-    pub rides: bool,
 }
 
 impl Crack {
@@ -128,7 +99,17 @@ impl Crack {
         } else {
             Regime::Secant
         };
+        if crack.regime == Regime::Secant {
+            crack.pass(sigma);
+        }
         crack
+    }
+
+    /// The secant through what is carried at this gap, not beside it by rounding: a way back begins where the way there ended.
+    pub fn pass(&mut self, sigma: f64) {
+        if (sigma - self.bridge * self.gap).abs() <= BESIDE * sigma {
+            self.bridge = sigma / self.gap;
+        }
     }
 
     /// A spent crack that is open where it carries nothing.
@@ -172,17 +153,6 @@ impl Crack {
         }
     }
 
-    /// ψ_n at the end of an elastic way.
-    pub fn trial_energy(&self, surface: &Surface, by: &Prediction) -> f64 {
-        let stiff = 0.5 * by.sigma * by.sigma / surface.kn;
-        match by.line {
-            Line::Secant | Line::Flat => 0.5 * by.sigma * by.gap,
-            Line::Beyond => stiff + self.kept_at_anchor(surface),
-            Line::Carry if self.regime == Regime::Envelope && by.sigma >= 0.0 => stiff + self.stored,
-            _ => stiff,
-        }
-    }
-
     /// Slope of the elastic law in the direction of the way.
     pub fn slope(&self, surface: &Surface) -> f64 {
         match self.regime {
@@ -192,118 +162,49 @@ impl Crack {
         }
     }
 
-    /// The elastic answer where `carry` is σ + K_N Δr_n and this has the gap at the end.
-    pub fn predict(&self, surface: &Surface, carry: f64, opens: bool) -> Prediction {
-        if !surface.closes {
-            let (line, gap) = (Line::Carry, 0.0);
-            return Prediction {
-                sigma: carry,
-                line,
-                sigma_faces: carry,
-                line_faces: line,
-                gap,
-                rides: false,
-            };
+    /// The gap at which a crack that moves by `change` leaves its regime.
+    pub fn border(&self, surface: &Surface, change: f64) -> Option<f64> {
+        if self.opening == 0.0 || change == 0.0 {
+            return None;
         }
-        let toe = |gap: f64| {
-            let (secant, beyond) = (self.bridge * gap, surface.kn * (gap - self.opening));
-            if beyond > secant { (beyond, Line::Beyond, gap) } else { (secant, Line::Secant, gap) }
-        };
-        let (sigma, line, gap) = match self.regime {
-            Regime::Contact if carry <= 0.0 || self.opening == 0.0 => {
-                (carry, Line::Carry, carry / surface.kn)
+        match (self.regime, change > 0.0) {
+            (Regime::Contact, true) | (Regime::Secant, false) => Some(0.0),
+            (Regime::Secant, true) | (Regime::Envelope, false) => {
+                Some(self.anchor(surface)).filter(|g| g.is_finite())
             }
-            Regime::Contact => toe(carry / surface.kn),
-            _ if self.gap < 0.0 && self.opening > 0.0 => (surface.kn * self.gap, Line::Touch, self.gap),
-            Regime::Secant if opens => toe(self.gap),
-            Regime::Secant => (self.bridge * self.gap, Line::Secant, self.gap),
-            Regime::Envelope if carry < 0.0 && self.opening > 0.0 && opens => (0.0, Line::Flat, self.gap),
-            Regime::Envelope if opens || self.opening == 0.0 => (carry, Line::Carry, self.gap),
-            Regime::Envelope => {
-                let secant = self.bridge * self.gap;
-                if secant > carry { (secant, Line::Secant, self.gap) } else { (carry, Line::Carry, self.gap) }
-            }
-            Regime::Free => (0.0, Line::Secant, self.gap),
-        };
-        let (mut sigma_faces, mut line_faces) = (sigma, line);
-        let ride = RIDING_SLOPE * if self.regime == Regime::Contact { 0.0 } else { self.slip };
-        if surface.sigma_dil > 0.0 && gap >= 0.0 && ride < self.opening * (1.0 - AT_ANCHOR) {
-            let ridden = surface.kn * (gap - ride);
-            if ridden > sigma {
-                (sigma_faces, line_faces) = (ridden, Line::Ridden);
-            }
+            _ => None,
         }
-        let rides = self.regime != Regime::Contact && gap > 0.0;
-        Prediction { sigma, line, sigma_faces, line_faces, gap, rides }
     }
 
-    /// The book-keeping after a stage; `slip` is what it added to u_t^p. B is that of one stage alone.
-    pub fn after(&self, surface: &Surface, by: &Prediction, answer: &Answer, slip: f64) -> Crack {
-        let mut crack = Crack { gap: by.gap, ..*self };
-        let Answer { mode, sigma, .. } = *answer;
-        let returned = by.sigma - sigma;
-        match by.line {
-            Line::Beyond => crack.stored = self.kept_at_anchor(surface),
-            Line::Flat => (crack.bridge, crack.stored) = (0.0, 0.0),
-            _ => {}
+    /// The crack as it sets out on a way from a traction: from the anchor back it is on the secant at once.
+    pub fn heading(mut self, surface: &Surface, sigma: f64, change: f64) -> Crack {
+        let back = self.regime == Regime::Envelope && change < 0.0;
+        let anchor = if back { self.border(surface, change) } else { None };
+        if anchor.is_some_and(|anchor| self.gap <= anchor * (1.0 + AT_ANCHOR)) {
+            (self.regime, self.stored) = (Regime::Secant, 0.0);
+            self.pass(sigma);
         }
-        crack.regime = match by.line {
-            Line::Secant | Line::Flat => Regime::Secant,
-            Line::Touch => Regime::Contact,
-            Line::Carry if sigma < 0.0 || (self.regime == Regime::Contact && by.sigma <= 0.0) => {
-                Regime::Contact
-            }
-            _ => Regime::Envelope,
-        };
-        match mode {
-            Mode::Elastic => {}
-            Mode::Tension => {
-                crack.opening += returned / surface.kn;
-                crack.slip += slip;
-                if crack.regime == Regime::Secant {
-                    crack.bridge = sigma / by.gap;
-                } else {
-                    crack.keep(surface, crack.stored + sigma * returned / surface.kn, sigma);
-                }
-            }
-            Mode::Sliding => {
-                crack.opening += by.sigma / surface.kn;
-                crack.slip += slip;
-                (crack.bridge, crack.stored) = (0.0, 0.0);
-                if crack.may_ride(surface, answer.work) {
-                    crack.ride(surface);
-                }
-            }
-            Mode::Compression => {
-                crack.regime = Regime::Contact;
-                crack.dilated |= by.rides || by.sigma_faces != sigma;
-                if by.rides {
-                    crack.ride(surface);
-                }
-            }
-            Mode::Open => {}
+        self
+    }
+
+    /// The regime that σ tells at the end of an elastic piece; none where that is the one it had.
+    pub fn told(&self, surface: &Surface, sigma: f64, opens: bool) -> Option<Regime> {
+        if !surface.closes || (self.opening > 0.0 && self.regime != Regime::Contact) {
+            return None;
         }
-        if crack.regime == Regime::Contact {
-            (crack.gap, crack.slip) = (sigma / surface.kn, 0.0);
-        }
-        if crack.regime != Regime::Envelope {
-            crack.stored = 0.0;
-        }
-        if surface.is_spent(answer.work) {
-            crack.spend(surface);
-        }
-        crack
+        let parts = self.opening == 0.0 && (sigma > 0.0 || (sigma == 0.0 && opens));
+        Some(if parts { Regime::Envelope } else { Regime::Contact })
     }
 
     /// Faces that slide at σ = 0 go on as faces that touch, if the slip since they last did reaches up to the gap.
-    fn may_ride(&self, surface: &Surface, work: f64) -> bool {
+    pub fn may_ride(&self, surface: &Surface, work: f64) -> bool {
         surface.sigma_dil > 0.0
             && self.gap <= (self.opening * (1.0 + AT_ANCHOR)).min(RIDING_SLOPE * self.slip)
             && surface.at(work).fc > 0.0
     }
 
     /// The gap becomes dilation.
-    fn ride(&mut self, surface: &Surface) {
+    pub fn ride(&mut self, surface: &Surface) {
         let left = self.opening - self.gap;
         self.opening = if left > AT_ANCHOR * self.gap { left } else { 0.0 };
         self.bridge = if self.opening == 0.0 { surface.kn } else { 0.0 };
@@ -320,7 +221,7 @@ impl Crack {
     }
 
     /// Nothing ties the faces any more.
-    fn spend(&mut self, surface: &Surface) {
+    pub fn spend(&mut self, surface: &Surface) {
         (self.stored, self.slip) = (0.0, 0.0);
         if self.regime == Regime::Contact {
             (self.opening, self.bridge) = (0.0, surface.kn);

@@ -15,9 +15,10 @@ use super::super::local::{
     Local, LocalMatrix, N, across, along, diagonal, direction, narrow, shear, widen, widen_matrix,
 };
 use super::super::{Response, State};
-use super::crack::{Crack, Line};
+use super::crack::Crack;
 use super::flow::Answer;
 use super::mode::Mode;
+use super::prediction::Line;
 use super::surface::Surface;
 use super::variables::WORK;
 

@@ -29,6 +29,7 @@ pub(super) struct Trial {
 
 impl Trial {
     /// σ_t of a mode.
+    #[inline]
     pub fn normal(&self, mode: Mode) -> f64 {
         if matches!(mode, Mode::Compression | Mode::Sliding) { self.sigma_faces } else { self.sigma }
     }
@@ -62,6 +63,7 @@ pub(super) struct ReturnEquations {
 }
 
 /// Compression without dilatancy, where the normal traction ignores sliding: f ≡ 0 up to the trial point.
+#[inline]
 pub(super) fn without_dilatancy(surface: &Surface, sigma_trial: f64, now: &Hyperbola) -> bool {
     now.fc == 0.0 || -sigma_trial >= surface.sigma_dil
 }
@@ -100,6 +102,7 @@ pub(super) fn work_of_step(
 }
 
 /// E₁, E₂ and σ with derivatives by (τ, W), in T or in C with dilatancy.
+#[inline]
 pub(super) fn equations(
     surface: &Surface,
     mode: Mode,

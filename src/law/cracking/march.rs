@@ -19,13 +19,15 @@ use super::super::local::{N, narrow, shear};
 use super::crack::{Crack, Regime};
 use super::elastic::{stiff, stiff_rows};
 use super::mode::Mode;
-use super::stage::{CrackSlopes, Old, Stage, StageSlopes, stage, stage_nested};
+use super::newton::Near;
+use super::stage::{Old, Stage, stage, stage_nested};
+use super::stage_slopes::{CrackSlopes, StageSlopes};
 use super::surface::Surface;
 use super::ties::bounded_slope;
 use super::variables::WORK;
 
 /// γ of the two-stage scheme.
-const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+pub(super) const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Weight of the first stage per its own step: (1 − γ)/γ.
 const FIRST: f64 = (1.0 - GAMMA) / GAMMA;
 
@@ -108,7 +110,7 @@ impl<const D: usize> WayPoint<D> {
             work: self.work,
             crack: Crack { gap: self.crack.gap + change[N], ..self.crack },
             opens: change[N] >= 0.0,
-            tau_near: shear(&self.traction),
+            near: Near { tau: shear(&self.traction), work: 0.0 },
         }
     }
 }
@@ -143,13 +145,28 @@ pub(super) fn euler_step<const D: usize>(
     (stage.end(dissipation), stage)
 }
 
-/// One step of the two-stage scheme along a change of jump.
+/// What a step says of places within it: parabolas through its start, its first stage and its end.
+pub(super) fn within<const D: usize>(from: &WayPoint<D>, step: &TwoStages<D>, x: f64) -> Near {
+    let [first, second] = &step.stages;
+    let at = |start: f64, middle: f64, end: f64| {
+        let (by_middle, by_end) = ((middle - start) / GAMMA, end - start);
+        start + x * (by_middle + (x - GAMMA) * (by_end - by_middle) / (1.0 - GAMMA))
+    };
+    Near {
+        tau: at(shear(&from.traction), first.answer.tau, second.answer.tau).max(0.0),
+        work: at(from.work, first.answer.work, second.answer.work),
+    }
+}
+
+/// One step of the two-stage scheme along a change of jump; `near`: the answers of both stages, roughly.
 pub(super) fn two_stage_step<const D: usize>(
     surface: &Surface,
     from: &WayPoint<D>,
     change: SVector<f64, D>,
+    near: Option<[Near; 2]>,
 ) -> (WayPoint<D>, TwoStages<D>) {
     let mut old = from.old(surface, change * GAMMA);
+    old.near = near.map_or(old.near, |near| near[0]);
     old.carried = from.traction + GAMMA * stiff(surface, change);
     let first = stage(surface, &old);
     if surface.closes && !first.is_regular() {
@@ -161,7 +178,7 @@ pub(super) fn two_stage_step<const D: usize>(
     let mut old = Old {
         carried: from.traction + stiff(surface, change) - FIRST * returned,
         work: from.work + FIRST * (first.answer.work - from.work),
-        tau_near: first.answer.tau,
+        near: near.map_or_else(|| first.onwards(from), |near| near[1]),
         ..from.old(surface, change)
     };
     if surface.closes {
@@ -192,6 +209,13 @@ pub(super) fn two_stage_step<const D: usize>(
 }
 
 impl<const D: usize> Stage<D> {
+    /// What a first stage says of the end of its step, in a straight line.
+    fn onwards(&self, from: &WayPoint<D>) -> Near {
+        let tau = shear(&from.traction);
+        let ahead = |before: f64, now: f64| before + (now - before) / GAMMA;
+        Near { tau: ahead(tau, self.answer.tau).max(0.0), work: ahead(from.work, self.answer.work) }
+    }
+
     fn end(&self, dissipation: f64) -> WayPoint<D> {
         WayPoint {
             traction: self.traction,

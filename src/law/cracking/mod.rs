@@ -19,12 +19,17 @@ mod crack;
 mod elastic;
 mod facet;
 mod flow;
+mod initial;
+mod lagged;
 mod march;
 mod mode;
 mod nested;
 mod newton;
 mod parameters;
+mod prediction;
 mod stage;
+mod stage_slopes;
+mod sub_steps;
 mod surface;
 mod tangent;
 mod ties;
@@ -32,8 +37,7 @@ mod variables;
 mod way;
 
 pub use parameters::{Cracking, Unloading};
-pub use surface::Strength;
-pub(super) use variables::VARIABLES;
+use variables::VARIABLES;
 pub use variables::WORK;
 
 use crack::Crack;
@@ -43,45 +47,17 @@ use march::step_nested;
 
 use super::local::{Local, N, narrow, shear};
 use super::variable::{LawVariable, OWN};
-use super::{Integration, Response, State, Unresolved};
+use super::{Inadmissible, Integration, PointLaw, Response, State, Strength, Unresolved};
+use crate::error::Warning;
 use answer::{held, march, march_euler, onset_of};
+use control::Lengths;
 use surface::Surface;
-use way::Lengths;
 
 impl Cracking {
     /// Strength (χ, c, tanφ) once the work W has been spent.
-    pub fn strength(&self, fracture_work: f64) -> Strength {
+    pub fn strength_after(&self, fracture_work: f64) -> Strength {
         let now = Surface::new(self).at(fracture_work);
         Strength { tensile_strength: now.chi, cohesion: now.c, tan_friction: now.t }
-    }
-
-    /// The hyperbola F of the intact interface at a traction [stress]; positive is outside.
-    pub fn excess(&self, traction: Local) -> f64 {
-        self.excess_at(traction, 0.0)
-    }
-
-    /// The hyperbola F at a traction once the work W has been spent [stress].
-    pub fn excess_at(&self, traction: Local, fracture_work: f64) -> f64 {
-        Surface::new(self).at(fracture_work).hyperbola(traction[N], shear(&traction))
-    }
-
-    /// The answer at a jump, reached in a straight line from the old state.
-    pub(super) fn respond(
-        &self,
-        jump: Local,
-        old: &State,
-        integration: Integration,
-    ) -> Result<Response, Unresolved> {
-        let surface = Surface::new(self);
-        match integration {
-            Integration::Tolerance(tolerance) => {
-                self.in_sub_steps(jump, old, Lengths::Controlled(tolerance, None))
-            }
-            Integration::BackwardEuler(steps) if old.is_plane(&jump) => {
-                Ok(march_euler::<2>(&surface, narrow(&jump), old, steps))
-            }
-            Integration::BackwardEuler(steps) => Ok(march_euler::<3>(&surface, jump, old, steps)),
-        }
     }
 
     /// The two-stage scheme in the plane or in space.
@@ -110,59 +86,6 @@ impl Cracking {
         answer
     }
 
-    /// Fraction of a straight way to a jump at which the surface is reached; none if it is not.
-    pub(super) fn onset(&self, jump: Local, old: &State) -> Option<f64> {
-        match old.is_plane(&jump) {
-            true => onset_of::<2>(&Surface::new(self), narrow(&jump), old),
-            false => onset_of::<3>(&Surface::new(self), jump, old),
-        }
-    }
-
-    /// Traction and slopes (n, t) of a point that is held elastic.
-    pub(super) fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
-        let (traction, [normal, tangential]) = held::<3>(&Surface::new(self), jump, old);
-        (traction, [normal, tangential, tangential])
-    }
-
-    /// Variables of an intact point.
-    pub(super) fn intact(&self) -> [f64; OWN] {
-        let (surface, mut state) = (Surface::new(self), State::default());
-        Crack::closed(&surface).store(&surface, &mut state);
-        state.own
-    }
-
-    /// Variables of the law; the published one has W alone.
-    pub(super) fn variables(&self) -> &'static [LawVariable] {
-        match self.unloading {
-            Unloading::Closing => &VARIABLES,
-            Unloading::Plastic => &VARIABLES[..=WORK],
-        }
-    }
-
-    /// Stored energy [stress × length]: that of the elastic law, ties across a crack included.
-    pub(super) fn stored(&self, state: &State) -> f64 {
-        let surface = Surface::new(self);
-        let tau = shear(&state.traction);
-        Crack::of(&surface, state).energy(&surface, state.traction[N]) + 0.5 * tau * tau / surface.kt
-    }
-
-    /// Traction of the elastic law at a jump, an irreversible jump (d of a crack that closes) and variables of the law.
-    pub(super) fn elastic_at(&self, jump: Local, jump_plastic: Local, own: [f64; OWN]) -> Local {
-        let surface = Surface::new(self);
-        let elastic = jump - jump_plastic;
-        let mut traction = stiff(&surface, elastic);
-        if surface.closes {
-            // intact up to the place where the faces touch
-            let state = State { jump: jump_plastic, jump_plastic, own, ..State::default() };
-            let crack = Crack::of(&surface, &state);
-            traction[N] = match surface.is_spent(own[WORK]) && elastic[N] > 0.0 {
-                true => 0.0,
-                false => crack.predict(&surface, traction[N], true).sigma,
-            };
-        }
-        traction
-    }
-
     /// One backward Euler step by the safe nested solver alone: traction, W. What Newton is checked against.
     pub fn respond_nested(&self, jump: Local, old: &State) -> (Local, f64) {
         step_nested(&Surface::new(self), jump, old)
@@ -189,9 +112,134 @@ impl Cracking {
     ) -> Result<Response, Unresolved> {
         self.in_sub_steps(jump, old, Lengths::Given(lengths))
     }
+}
+
+impl PointLaw for Cracking {
+    fn all_variables() -> &'static [LawVariable] {
+        &VARIABLES
+    }
+
+    /// Variables of the law; the published one has W alone.
+    fn variables(&self) -> &'static [LawVariable] {
+        match self.unloading {
+            Unloading::Closing => &VARIABLES,
+            Unloading::Plastic => &VARIABLES[..=WORK],
+        }
+    }
+
+    fn check(&self) -> Result<(), Inadmissible> {
+        self.admit()
+    }
+
+    fn warnings(&self) -> Vec<Warning> {
+        self.doubts()
+    }
+
+    fn elastic_stiffness(&self) -> [f64; 3] {
+        [self.normal_stiffness, self.tangential_stiffness, self.tangential_stiffness]
+    }
+
+    fn respond(&self, jump: Local, old: &State, integration: Integration) -> Result<Response, Unresolved> {
+        let surface = Surface::new(self);
+        match integration {
+            Integration::Tolerance(tolerance) => {
+                self.in_sub_steps(jump, old, Lengths::Controlled(tolerance, None))
+            }
+            Integration::BackwardEuler(steps) if old.is_plane(&jump) => {
+                Ok(march_euler::<2>(&surface, narrow(&jump), old, steps))
+            }
+            Integration::BackwardEuler(steps) => Ok(march_euler::<3>(&surface, jump, old, steps)),
+        }
+    }
+
+    fn respond_lagged(
+        &self,
+        jump: Local,
+        old: &State,
+        integration: Integration,
+        all: bool,
+    ) -> Result<Response, Unresolved> {
+        lagged::answer(self, jump, old, integration, all)
+    }
+
+    fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
+        let (traction, [normal, tangential]) = held::<3>(&Surface::new(self), jump, old);
+        (traction, [normal, tangential, tangential])
+    }
+
+    /// Stored energy [stress × length]: that of the elastic law, ties across a crack included.
+    fn stored(&self, state: &State) -> f64 {
+        let surface = Surface::new(self);
+        let tau = shear(&state.traction);
+        Crack::of(&surface, state).energy(&surface, state.traction[N]) + 0.5 * tau * tau / surface.kt
+    }
+
+    fn intact(&self) -> [f64; OWN] {
+        let (surface, mut state) = (Surface::new(self), State::default());
+        Crack::closed(&surface).store(&surface, &mut state);
+        state.own
+    }
+
+    fn takes_damage(&self) -> bool {
+        true
+    }
+
+    /// Opened under tension until that share is spent, and closed again.
+    fn lost(&self, share: f64) -> Option<[f64; OWN]> {
+        initial::opened_and_closed(self, share)
+    }
+
+    /// The irreversible jump is d of a crack that closes.
+    fn at_rest(&self, jump: Local, jump_plastic: Local, own: &[f64; OWN]) -> Local {
+        let surface = Surface::new(self);
+        let elastic = jump - jump_plastic;
+        let mut traction = stiff(&surface, elastic);
+        if surface.closes {
+            // intact up to the place where the faces touch
+            let state = State { jump: jump_plastic, jump_plastic, own: *own, ..State::default() };
+            let crack = Crack::of(&surface, &state);
+            traction[N] = match surface.is_spent(own[WORK]) && elastic[N] > 0.0 {
+                true => 0.0,
+                false => crack.predict(&surface, traction[N], true).sigma,
+            };
+        }
+        traction
+    }
+
+    /// The hyperbola F once the work W has been spent.
+    fn excess(&self, traction: &Local, own: &[f64; OWN]) -> f64 {
+        Surface::new(self).at(own[WORK]).hyperbola(traction[N], shear(traction))
+    }
+
+    fn strength(&self, state: &State) -> Option<Strength> {
+        Some(self.strength_after(state.own[WORK]))
+    }
+
+    fn steepest_softening(&self) -> f64 {
+        self.softens()
+    }
+
+    fn onset_or_on(&self, jump: Local, old: &State) -> Option<f64> {
+        match old.is_plane(&jump) {
+            true => onset_of::<2>(&Surface::new(self), narrow(&jump), old),
+            false => onset_of::<3>(&Surface::new(self), jump, old),
+        }
+    }
+
+    fn is_integrated(&self) -> bool {
+        true
+    }
+
+    fn dilates(&self) -> bool {
+        self.dilatancy_stress > 0.0
+    }
+
+    fn closes(&self) -> bool {
+        self.unloading == Unloading::Closing
+    }
 
     /// Distance of two states, as an error of the traction [stress]: in traction, strength and jump.
-    pub(super) fn misfit(&self, a: &State, b: &State) -> f64 {
+    fn misfit(&self, a: &State, b: &State) -> f64 {
         let surface = Surface::new(self);
         let loss = surface.loss();
         (a.traction - b.traction)
@@ -200,8 +248,7 @@ impl Cracking {
             .max((a.jump - b.jump).amax() * loss * surface.scale())
     }
 
-    /// The bound of the local error of a second-order step under this tolerance [stress].
-    pub(super) fn local_bound(&self, tolerance: f64) -> f64 {
-        control::local_bound(&Surface::new(self), tolerance)
+    fn local_bound(&self, tolerance: f64) -> Option<f64> {
+        Some(control::local_bound(&Surface::new(self), tolerance))
     }
 }

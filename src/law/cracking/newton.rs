@@ -6,44 +6,65 @@
 use super::flow::{Answer, ReturnEquations, Trial, equations, without_dilatancy};
 use super::mode::Mode;
 use super::nested::{mode_at, solve_nested};
-use super::surface::Surface;
+use super::surface::{Hyperbola, Surface};
 
 /// Iterations before giving up; five are usual.
 const ITERATIONS: usize = 12;
 /// Last correction, relative: the error left is its square.
 const LAST_CORRECTION: f64 = 1e-8;
 
-/// The step from a trial outside the hyperbola; `tau_near` is a shear traction near the answer, 0 if unknown.
-pub(super) fn solve(surface: &Surface, trial: &Trial, tau_near: f64) -> Answer {
-    solve_newton(surface, trial, tau_near).unwrap_or_else(|| solve_nested(surface, trial))
+/// An answer near another: where Newton starts.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Near {
+    /// |τ|, 0 if unknown.
+    pub tau: f64,
+    /// W; the old one where this is less.
+    pub work: f64,
+}
+
+/// The step from a trial outside the hyperbola `start` of the old W.
+pub(super) fn solve(surface: &Surface, trial: &Trial, start: &Hyperbola, near: Near) -> Answer {
+    let fast = solve_newton(surface, trial, start, near);
+    let again =
+        || solve_newton(surface, trial, start, Near { work: 0.0, ..near }).filter(|_| near.work > 0.0);
+    fast.or_else(again).unwrap_or_else(|| solve_nested(surface, trial))
 }
 
 /// Newton's answer, if it passes all checks.
-pub(super) fn solve_newton(surface: &Surface, trial: &Trial, tau_near: f64) -> Option<Answer> {
-    let start = surface.at(trial.work);
-    match mode_at(surface, trial, &start) {
+pub(super) fn solve_newton(
+    surface: &Surface,
+    trial: &Trial,
+    start: &Hyperbola,
+    near: Near,
+) -> Option<Answer> {
+    match mode_at(surface, trial, start) {
         Mode::Open => {
             (start.chi == 0.0).then_some(Answer { mode: Mode::Open, sigma: 0.0, tau: 0.0, work: trial.work })
         }
-        Mode::Tension if trial.tau == 0.0 => newton_on_work(surface, trial, Mode::Tension),
-        Mode::Compression if without_dilatancy(surface, trial.sigma_faces, &start) => {
-            newton_on_work(surface, trial, Mode::Compression)
+        Mode::Tension if trial.tau == 0.0 => newton_on_work(surface, trial, Mode::Tension, near),
+        Mode::Compression if without_dilatancy(surface, trial.sigma_faces, start) => {
+            newton_on_work(surface, trial, Mode::Compression, near)
         }
-        Mode::Sliding => newton_on_work(surface, trial, Mode::Sliding),
-        mode => newton_on_both(surface, trial, mode, tau_near),
+        Mode::Sliding => newton_on_work(surface, trial, Mode::Sliding, near),
+        mode => newton_on_both(surface, trial, start, mode, near),
     }
 }
 
 /// T or C with dilatancy: unknowns (τ, W).
-fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -> Option<Answer> {
-    let start = surface.at(trial.work);
+fn newton_on_both(
+    surface: &Surface,
+    trial: &Trial,
+    start: &Hyperbola,
+    mode: Mode,
+    near: Near,
+) -> Option<Answer> {
     // near the vertex E₁ is linear in τ
     let near_vertex = surface.kn / surface.kt * start.b * start.t;
     let from_vertex = trial.tau * near_vertex / ((trial.sigma - start.chi).max(0.0) + near_vertex);
-    let mut tau = if tau_near > 0.0 { tau_near.min(trial.tau) } else { from_vertex };
-    let mut w = trial.work;
+    let mut tau = if near.tau > 0.0 { near.tau.min(trial.tau) } else { from_vertex };
+    let mut w = near.work.max(trial.work);
+    let mut now = if w > trial.work { surface.at(w) } else { *start };
     for _ in 0..ITERATIONS {
-        let now = surface.at(w);
         let ReturnEquations { normal, work, .. } = equations(surface, mode, trial, &now, tau, w);
         let det = normal.tau * work.work - normal.work * work.tau;
         let d_tau = (normal.work * work.value - normal.value * work.work) / det;
@@ -57,8 +78,8 @@ fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -
         let settled = (next - tau).abs() <= LAST_CORRECTION * tau
             && d_tau.abs() <= LAST_CORRECTION * tau
             && d_w.abs() <= LAST_CORRECTION * (w - trial.work) + 4.0 * f64::EPSILON * w;
+        now = surface.at(w);
         if settled {
-            let now = surface.at(w);
             let sigma = now.sigma(tau, now.root(tau));
             let promised = match mode {
                 Mode::Tension => sigma > 0.0 && now.chi > 0.0,
@@ -71,8 +92,8 @@ fn newton_on_both(surface: &Surface, trial: &Trial, mode: Mode, tau_near: f64) -
 }
 
 /// Pure tension, compression without dilatancy, and Z: the traction follows from W.
-fn newton_on_work(surface: &Surface, trial: &Trial, mode: Mode) -> Option<Answer> {
-    let mut w = trial.work;
+fn newton_on_work(surface: &Surface, trial: &Trial, mode: Mode, near: Near) -> Option<Answer> {
+    let mut w = near.work.max(trial.work);
     for _ in 0..ITERATIONS {
         let now = surface.at(w);
         let (value, slope) = if mode == Mode::Tension {

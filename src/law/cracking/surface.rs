@@ -17,17 +17,6 @@
 use super::mode::{Mode, RIDING_SLOPE};
 use super::parameters::{Cracking, Unloading};
 
-/// Strength of an interface at some stage of cracking.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strength {
-    /// Tensile strength χ [stress].
-    pub tensile_strength: f64,
-    /// Cohesion c [stress].
-    pub cohesion: f64,
-    /// Tangent of the friction angle [-].
-    pub tan_friction: f64,
-}
-
 /// The law's parameters made ready: exponentials and inverses are taken once per answer.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surface {
@@ -65,6 +54,7 @@ pub(super) struct Hyperbola {
 }
 
 /// 1 − S(ξ) and S'(ξ), with e = e^{−α}.
+#[inline]
 fn shape(xi: f64, e: f64) -> (f64, f64) {
     if xi >= 1.0 {
         return (0.0, 0.0);
@@ -106,6 +96,7 @@ impl Surface {
     }
 
     /// The hyperbola once the work W has been spent.
+    #[inline]
     pub fn at(&self, w: f64) -> Hyperbola {
         let (left, slope) = shape(w * self.per_gf_i, self.e_chi);
         let (chi, dchi) = (self.chi0 * left, -self.chi0 * slope * self.per_gf_i);
@@ -129,6 +120,7 @@ impl Surface {
     }
 
     /// Dilatancy factor f_σ and its derivative by σ, for σ < 0. No quotient is formed for σ_dil = 0.
+    #[inline]
     pub fn dilatancy(&self, sigma: f64) -> (f64, f64) {
         if -sigma >= self.sigma_dil {
             return (0.0, 0.0);
@@ -138,11 +130,13 @@ impl Surface {
     }
 
     /// The normal flow s t f of a mode at a shear τ, within the slope of riding.
+    #[inline]
     pub fn bounded(&self, mode: Mode, flow: f64, tau: f64) -> f64 {
         if self.closes && mode == Mode::Compression { flow.min(RIDING_SLOPE * tau) } else { flow }
     }
 
     /// True once nothing ties the faces: W ≥ G_I, or no tensile strength at all.
+    #[inline]
     pub fn is_spent(&self, work: f64) -> bool {
         self.chi0 == 0.0 || work * self.per_gf_i >= 1.0
     }
@@ -172,27 +166,32 @@ impl Surface {
 
 impl Hyperbola {
     /// s = √(τ² + b²).
+    #[inline]
     pub fn root(&self, tau: f64) -> f64 {
         (tau * tau + self.b * self.b).sqrt()
     }
 
     /// F(σ, τ): positive outside [stress].
+    #[inline]
     pub fn hyperbola(&self, sigma: f64, tau: f64) -> f64 {
         self.root(tau) - (self.c - sigma * self.t)
     }
 
     /// σ on the hyperbola at τ, free of cancellation near the vertex.
+    #[inline]
     pub fn sigma(&self, tau: f64, s: f64) -> f64 {
         let reach = self.chi * self.t;
         (reach * (2.0 * self.c - reach) - tau * tau) / (self.t * (self.c + s))
     }
 
     /// τ ≥ 0 on the hyperbola at σ ≤ χ, free of cancellation near the vertex.
+    #[inline]
     pub fn tau(&self, sigma: f64) -> f64 {
         (self.t * (self.chi - sigma) * (2.0 * self.c - self.t * (self.chi + sigma))).max(0.0).sqrt()
     }
 
     /// τ + σ t on the hyperbola, c − b²/(s + τ): zero or more, the part of the shear that is not friction.
+    #[inline]
     pub fn shear_above_friction(&self, tau: f64) -> f64 {
         let s = self.root(tau);
         if s == 0.0 {
@@ -202,6 +201,7 @@ impl Hyperbola {
     }
 
     /// ∂τ/∂σ and ∂τ/∂W on the hyperbola, τ > 0.
+    #[inline]
     pub fn tau_slopes(&self, sigma: f64, tau: f64) -> (f64, f64) {
         let reach = self.c - sigma * self.t;
         (-reach * self.t / tau, (reach * (self.dc - sigma * self.dt) - self.b * self.db) / tau)

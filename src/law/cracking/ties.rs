@@ -9,9 +9,11 @@
 use nalgebra::SVector;
 
 use super::super::local::N;
-use super::crack::{Crack, Line, Regime};
+use super::crack::{Crack, Regime};
 use super::mode::Mode;
-use super::stage::{CrackSlopes, Stage, StageSlopes};
+use super::prediction::Line;
+use super::stage::Stage;
+use super::stage_slopes::{CrackSlopes, StageSlopes};
 use super::surface::Surface;
 
 impl<const D: usize> Stage<D> {

@@ -1,56 +1,34 @@
 //! The way of an increment: elastic pieces, and sub-steps where the surface is reached.
 //!
-//! Under error control the way is elastic up to the onset of cracking, found exactly, then runs in sub-steps of
-//! absolute length, the last one cut at the end of the increment. Lengths depend on what lies behind, never on where
-//! the increment ends, so the traction does not snap while a global Newton iteration moves that end. Elastic pieces end where a
-//! crack changes its regime (`crack`), found exactly too: the elastic law is straight between.
+//! The way is elastic up to the onset of cracking, found exactly, then runs in sub-steps (`sub_steps`). Elastic pieces end where
+//! a crack changes its regime (`crack`), found exactly too: the elastic law is straight between.
 
 use nalgebra::{SMatrix, SVector};
 
 use super::super::local::{N, direction, shear};
-use super::control::{ErrorControl, in_halves};
-use super::crack::{Crack, Regime};
+use super::crack::Regime;
 use super::elastic::{margin, stiff_rows};
-use super::march::{Change, Slopes, WayPoint};
+use super::march::{Slopes, WayPoint};
 use super::mode::Mode;
-use super::stage::CrackSlopes;
 use super::surface::Surface;
-
-/// Source of the lengths of sub-steps.
-pub(super) enum Lengths<'a> {
-    /// Error control with this tolerance; the accepted lengths are appended to the record, if there is one.
-    Controlled(f64, Option<&'a mut Vec<f64>>),
-    /// Given beforehand; the last one reaches to the end whatever its length.
-    Given(&'a [f64]),
-}
-
-/// Among recorded lengths: the crack is free of stress from here on.
-const PIECE_ENDS: f64 = 0.0;
 
 /// A way under way.
 pub(super) struct LawWay<'a, const D: usize> {
-    surface: &'a Surface,
-    change: SVector<f64, D>,
+    pub surface: &'a Surface,
+    pub change: SVector<f64, D>,
     pub point: WayPoint<D>,
     pub slopes: Slopes<D>,
     /// Fraction of the way that is done, and the derivative of the place there by the jump.
     pub fraction: f64,
-    here: SMatrix<f64, D, D>,
+    pub here: SMatrix<f64, D, D>,
     /// Sub-steps done.
-    count: usize,
+    pub count: usize,
 }
 
 impl<'a, const D: usize> LawWay<'a, D> {
     pub fn new(surface: &'a Surface, from: WayPoint<D>, change: SVector<f64, D>) -> LawWay<'a, D> {
         let (slopes, here) = (Slopes::none(), SMatrix::zeros());
         LawWay { surface, change, point: from, slopes, fraction: 0.0, here, count: 0 }
-    }
-
-    /// Goes on to the end.
-    /// `Err` if the traction snaps: what is left of the way there.
-    pub fn finish(&mut self, mut lengths: Lengths) -> Result<(), SVector<f64, D>> {
-        while !self.elastic() && !self.in_sub_steps(&mut lengths)? {}
-        Ok(())
     }
 
     /// Goes on elastically: to the end (true) or to the surface.
@@ -68,7 +46,7 @@ impl<'a, const D: usize> LawWay<'a, D> {
             let crack = self.point.crack;
             let k = [crack.slope(self.surface), self.surface.kt];
             let rate = SVector::from_fn(|i, _| k[usize::from(i != N)] * rest[i]);
-            let border = self.border(rest[N]);
+            let border = crack.border(self.surface, rest[N]);
             let part = border.map_or(1.0, |gap| ((gap - crack.gap) / rest[N]).clamp(0.0, 1.0));
             let end = self.point.traction + rate * part;
             let now = self.surface.at(self.point.work);
@@ -99,21 +77,6 @@ impl<'a, const D: usize> LawWay<'a, D> {
         SMatrix::identity() - self.here
     }
 
-    /// The gap at which the crack leaves its regime.
-    fn border(&self, change: f64) -> Option<f64> {
-        let crack = &self.point.crack;
-        if crack.opening == 0.0 || change == 0.0 {
-            return None;
-        }
-        match (crack.regime, change > 0.0) {
-            (Regime::Contact, true) | (Regime::Secant, false) => Some(0.0),
-            (Regime::Secant, true) | (Regime::Envelope, false) => {
-                Some(crack.anchor(self.surface)).filter(|g| g.is_finite())
-            }
-            _ => None,
-        }
-    }
-
     /// Goes elastically to a part of the rest.
     fn advance(&mut self, rest: SVector<f64, D>, k: [f64; 2], part: f64, by_jump: SVector<f64, D>) {
         let moved = self.ahead() * part + rest * by_jump.transpose();
@@ -141,6 +104,7 @@ impl<'a, const D: usize> LawWay<'a, D> {
             }
             (Regime::Envelope, _) => {
                 (crack.regime, crack.stored) = (Regime::Secant, 0.0);
+                crack.pass(self.point.traction[N]);
                 self.point.traction[N] = crack.bridge * crack.gap;
             }
             _ => self.close(),
@@ -148,7 +112,7 @@ impl<'a, const D: usize> LawWay<'a, D> {
     }
 
     /// The faces meet at this place.
-    fn close(&mut self) {
+    pub fn close(&mut self) {
         let crack = &mut self.point.crack;
         (crack.regime, crack.gap, crack.slip) = (Regime::Contact, 0.0, 0.0);
         (self.slopes.crack.gap, self.slopes.crack.slip) = (SVector::zeros(), SVector::zeros());
@@ -160,20 +124,14 @@ impl<'a, const D: usize> LawWay<'a, D> {
     fn settle(&mut self, opens: bool) {
         let (sigma, kn) = (self.point.traction[N], self.surface.kn);
         let crack = &mut self.point.crack;
-        if !self.surface.closes || (crack.opening > 0.0 && crack.regime != Regime::Contact) {
-            return;
-        }
-        crack.regime =
-            if sigma > 0.0 || (sigma == 0.0 && opens) { Regime::Envelope } else { Regime::Contact };
-        if crack.opening > 0.0 {
-            crack.regime = Regime::Contact;
-        }
-        if crack.opening == 0.0 && crack.regime == Regime::Envelope && !crack.dilated {
+        let Some(regime) = crack.told(self.surface, sigma, opens) else { return };
+        crack.regime = regime;
+        if regime == Regime::Envelope && !crack.dilated {
             return;
         }
         crack.gap = sigma / kn;
         self.slopes.crack.gap = self.slopes.traction.row(N).transpose() / kn;
-        if crack.regime == Regime::Contact {
+        if regime == Regime::Contact {
             crack.slip = 0.0;
             self.slopes.crack.slip = SVector::zeros();
         }
@@ -240,95 +198,6 @@ impl<'a, const D: usize> LawWay<'a, D> {
             }
             x = next;
         }
-    }
-
-    /// Goes on in sub-steps: to the end (true), or until the crack is free of stress.
-    fn in_sub_steps(&mut self, lengths: &mut Lengths) -> Result<bool, SVector<f64, D>> {
-        let surface = self.surface;
-        let distance = self.change.norm();
-        let towards = self.change / distance;
-        let turn = (SMatrix::identity() - towards * towards.transpose()) / distance;
-        let mut total = (1.0 - self.fraction) * distance;
-        let mut control = match lengths {
-            Lengths::Controlled(tolerance, _) => Some(ErrorControl::new(surface, *tolerance, total)),
-            Lengths::Given(_) => None,
-        };
-        let mut onset = self.here;
-        let mut done = 0.0;
-        while done < total {
-            let to_touch = self.distance_to_touch(towards[N]);
-            let from = self.point.crack;
-            let left = (total - done).min(to_touch);
-            let step = match (&mut control, &mut *lengths) {
-                (Some(control), _) => {
-                    control.next(surface, &self.point, towards, left).ok_or(towards * (total - done))?
-                }
-                (None, Lengths::Given(given))
-                    if self.count + 1 < given.len() && given[self.count] != PIECE_ENDS =>
-                {
-                    in_halves(surface, &self.point, towards, given[self.count].min(left))
-                }
-                (None, _) => in_halves(surface, &self.point, towards, left),
-            };
-            let touches = step.length >= to_touch;
-            if let Lengths::Controlled(_, Some(record)) = lengths {
-                record.push(if touches { f64::INFINITY } else { step.length });
-            }
-            self.count += 1;
-            let before = done;
-            done = if step.length >= total - done { total } else { done + step.length };
-            let mut there = if done == total { SMatrix::identity() } else { onset + turn * done };
-            if touches && done < total {
-                let gap = self.slopes.crack.gap + (there - self.here).row(N).transpose();
-                there += towards * (-gap / towards[N]).transpose();
-            }
-            let half = Change { along: (there - self.here) * 0.5, across: 0.5 * (done - before) / distance };
-            for (stages, end) in step.steps.iter().zip([&step.middle, &step.end]) {
-                self.slopes = self.slopes.over_two_stages(surface, stages, &half, end);
-            }
-            self.here = there;
-            self.point = step.end;
-            if done < total && touches {
-                match from.regime {
-                    Regime::Contact => self.part(from),
-                    _ => self.close(),
-                }
-                (onset, total, done) = (self.here, total - done, 0.0);
-            }
-            if self.point.crack.regime == Regime::Free && done < total {
-                if let Lengths::Controlled(_, Some(record)) = lengths {
-                    record.push(PIECE_ENDS);
-                }
-                self.count += 1;
-                self.fraction = 1.0 - (total - done) / distance;
-                return Ok(false);
-            }
-        }
-        self.fraction = 1.0;
-        Ok(true)
-    }
-
-    /// Length of the way up to where the faces of a crack meet or part.
-    fn distance_to_touch(&self, towards: f64) -> f64 {
-        let crack = &self.point.crack;
-        let meets = match crack.regime {
-            Regime::Secant | Regime::Envelope => towards < 0.0,
-            Regime::Contact => towards > 0.0 && self.surface.sigma_dil == 0.0 && crack.gap < 0.0,
-            Regime::Free => false,
-        };
-        match self.surface.closes && crack.opening > 0.0 && meets {
-            true => crack.gap / -towards,
-            false => f64::INFINITY,
-        }
-    }
-
-    /// Faces of a crack part here while they slide: up to this place they touched, whatever rounding says, and k is kept.
-    fn part(&mut self, crack: Crack) {
-        let slopes = self.slopes.crack;
-        self.close();
-        self.point.crack = Crack { regime: Regime::Secant, gap: 0.0, ..crack };
-        self.slopes.crack = CrackSlopes { gap: SVector::zeros(), bridge: SVector::zeros(), ..slopes };
-        self.slopes.crack.slip = SVector::zeros();
     }
 
     /// Derivatives of a point that does not move.

@@ -1,0 +1,114 @@
+//! Claim: beams that come apart do so at the fracture energy, in both modes, whatever the softening: J of what loads them.
+//!
+//! ```text
+//! DCB   J = P (θ_upper + θ_lower)                      forces P, rotations θ where they act
+//! ENF   J = P/2 (θ_left + θ_right + 2 θ_middle)        three-point bending, rotations towards the crack's end
+//! ```
+//!
+//! J is exact for beams of any length of process zone (per width; Paris and Paris 1988, Stigh, Alfredsson and Biel 2009).
+
+use crate::common::*;
+use midplane::history::ModelState;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+const YOUNG: f64 = 70e3;
+/// Half of the height, and the length of the beams [mm].
+const HEIGHT: f64 = 1.5;
+const LENGTH: f64 = 100.0;
+const GI: f64 = 0.3;
+const GII: f64 = 0.9;
+
+fn beams(softening: &str, crack: f64, step: &str) -> Problem {
+    let flat = |x: f64, y: f64| [x, y];
+    let arm = |y: f64, n: usize| {
+        let mut mesh = rectangle(&even(0.0, LENGTH, n), &even(y, y + HEIGHT, 2), Shape::Quadrilateral8, flat);
+        let near = |x: f64, y: f64| {
+            let far = |p: &[f64; 3]| (p[0] - x).hypot(p[1] - y);
+            let points = mesh.points.iter().enumerate();
+            points.min_by(|a, b| far(a.1).total_cmp(&far(b.1))).unwrap().0
+        };
+        let places = [("start", 0.0), ("middle", 0.5 * LENGTH), ("end", LENGTH)];
+        let mut named = Vec::new();
+        for (name, x) in places {
+            for (part, at) in [("low", y), ("axis", y + 0.5 * HEIGHT), ("high", y + HEIGHT)] {
+                named.push((format!("{name}_{part}"), near(x, at)));
+            }
+        }
+        for (name, node) in named {
+            mesh.groups.insert(name, midplane::mesh::Group::Points(vec![node]));
+        }
+        mesh
+    };
+    let text = format!(
+        r#"{{ "plane": "stress",
+          "subdomains": {{ "lower": {{ "msh": "l", "material": "ply" }}, "upper": {{ "msh": "u", "material": "ply" }} }},
+          "materials": {{ "ply": {{ "young": {YOUNG}, "poisson": 0.0 }} }},
+          "interfaces": {{ "joint": {{ "side_a": "lower.top", "side_b": "upper.bottom",
+            "initial_damage": "x < {crack}",
+            "law": {{ "type": "cohesive", "normal_stiffness": 1e5, "tangential_stiffness": 1e5, "tensile_strength": 20,
+              "shear_strength": 30, "fracture_energy_i": {GI}, "fracture_energy_ii": {GII}, "softening": {softening},
+              "mixed_mode": {{ "benzeggagh_kenane": 1.75 }} }} }} }},
+          "steps": [ {step} ] }}"#
+    );
+    bind(&text, vec![arm(0.0, 80), arm(HEIGHT, 100)]).unwrap()
+}
+
+/// Slope of a section: the difference of u_x over the height, clockwise positive.
+fn rotation_of(problem: &Problem, state: &ModelState, subdomain: usize, section: &str) -> f64 {
+    let at = |part: &str| group(problem, subdomain, &format!("{section}_{part}"))[0];
+    let [low, high] = ["low", "high"].map(|part| displacement(problem, state, subdomain, at(part))[0]);
+    (high - low) / HEIGHT
+}
+
+/// Reaction in y at a point.
+fn reaction(problem: &Problem, state: &ModelState, subdomain: usize, point: &str) -> f64 {
+    let node = problem.model.subdomains[subdomain].first_node + group(problem, subdomain, point)[0];
+    state.reactions[2 * node + 1]
+}
+
+#[test]
+fn a_double_cantilever_costs_the_energy_of_mode_i() {
+    let step = r#"{ "name": "open", "increments": 20,
+        "fix": { "lower.start_axis": ["y"], "lower.end_axis": ["x"], "upper.end_axis": ["x"] },
+        "displace": { "upper.start_axis": { "y": 5 } } }"#;
+    for softening in [r#""linear""#, r#""exponential""#] {
+        let problem = beams(softening, 30.0, step);
+        let (states, _) = solve(&problem);
+        let last = states.last().unwrap();
+        let force = reaction(&problem, last, 1, "start_axis");
+        let turned = rotation_of(&problem, last, 1, "start") - rotation_of(&problem, last, 0, "start");
+        println!("{softening}: P {force:.4}, J {:.5} of {GI}", force * turned);
+        close(force * turned, GI, 0.01, GI, softening);
+        let balance = last.energy_balance();
+        assert!(balance.abs() < 2e-3, "{balance}");
+    }
+}
+
+#[test]
+fn an_end_notched_beam_costs_the_energy_of_mode_ii() {
+    let step = r#"{ "name": "bend", "increments": 20,
+        "fix": { "lower.start_low": ["y"], "lower.end_low": ["y", "x"] },
+        "displace": { "upper.middle_high": { "y": -6 } } }"#;
+    for softening in [r#""linear""#, r#""bilinear""#] {
+        let problem = beams(softening, 36.0, step);
+        let (states, _) = solve(&problem);
+        let force = |state: &ModelState| -reaction(&problem, state, 1, "middle_high");
+        let j = |state: &ModelState| {
+            let turn = |section: &str| {
+                0.5 * (rotation_of(&problem, state, 0, section) + rotation_of(&problem, state, 1, section))
+            };
+            0.5 * force(state) * (turn("start") - 2.0 * turn("middle") + turn("end")).abs()
+        };
+        for state in &states {
+            println!(
+                "{softening}: P {:.3}, J {:.5} of {GII}, dissipated {:.4}",
+                force(state),
+                j(state),
+                state.dissipated
+            );
+        }
+        let most = states.iter().map(j).fold(0.0, f64::max);
+        close(most, GII, 0.01, GII, softening);
+    }
+}
