@@ -9,7 +9,7 @@
 
 use crate::law_help::close;
 use midplane::law::{
-    Coulomb, Elastic, Integration, Law, Local, LocalMatrix, PointLaw, Response, State, local,
+    Coulomb, Elastic, Integration, Law, Local, LocalMatrix, LossOfCohesion, PointLaw, Response, State, local,
 };
 
 const STEPPING: Integration = Integration::Tolerance(1e-4);
@@ -20,6 +20,8 @@ const BLOCK: Coulomb = Coulomb {
     friction_coefficient: 0.6,
     cohesion: 0.0,
     dilatancy: 0.0,
+    dilatancy_end: None,
+    cohesion_lost: LossOfCohesion::Never,
 };
 
 fn respond(law: &Coulomb, jump: [f64; 2], old: &State) -> Response {
@@ -280,4 +282,68 @@ fn an_initial_traction_must_be_one_the_interface_can_carry() {
     close(pressed.traction.x, -1e-3 * BLOCK.normal_stiffness, 1e-12, "−K_N times the overlap");
     assert_eq!(law.respond(Local::zeros(), &pressed, STEPPING).unwrap().traction, pressed.traction);
     assert_eq!(law.initial_state(Local::zeros(), f64::NAN).unwrap_err().key, "initial_gap");
+}
+
+#[test]
+fn dilatancy_ends_at_its_slip_whatever_the_steps() {
+    let law = Coulomb { dilatancy: 0.2, dilatancy_end: Some(1e-3), ..BLOCK };
+    let [kn, kt] = [law.normal_stiffness, law.tangential_stiffness];
+    // pressed to -2 at a constant normal jump: dilatancy presses harder until it ends
+    let start = respond(&law, [-2.0 / kn, 0.0], &State::default()).state;
+    for parts in [1, 2, 7, 100] {
+        let (mut state, mut spent) = (start, 0.0);
+        for k in 1..=parts {
+            let response = respond(&law, [-2.0 / kn, 4e-3 * k as f64 / parts as f64], &state);
+            spent += response.dissipation;
+            state = response.state;
+        }
+        // r_n^p = tanψ · 1e-3 and not more
+        close(state.jump_plastic.x, 0.2e-3, 1e-15, "normal jump");
+        close(state.traction.x, -2.0 - 0.2e-3 * kn, 1e-11, "normal traction");
+        close(state.traction.y, 0.6 * 4.0, 1e-11, "friction");
+        let slip = 4e-3 - 2.4 / kt;
+        close(state.own[0], slip, 1e-15, "total slip");
+        // (μ − tanψ) |σ| over the first mm, where σ goes from -2 to -4, then μ |σ|
+        close(spent, 0.4 * 3.0 * 1e-3 + 2.4 * (slip - 1e-3), 1e-13, "dissipation");
+        // back: no more dilation, and the slip goes on to count
+        let back = respond(&law, [-2.0 / kn, 0.0], &state).state;
+        close(back.jump_plastic.x, 0.2e-3, 1e-15, "normal jump after the way back");
+        close(back.own[0], slip + 4e-3 - 4.8 / kt, 1e-14, "total slip after the way back");
+    }
+    assert_eq!(Coulomb { dilatancy_end: Some(0.0), ..law }.check().unwrap_err().key, "dilatancy_end");
+}
+
+#[test]
+fn cohesion_that_is_lost_at_slip_is_gone_for_good_and_its_energy_told() {
+    let law = Coulomb { cohesion: 1.5, cohesion_lost: LossOfCohesion::AtSlip, ..BLOCK };
+    let [kn, kt] = [law.normal_stiffness, law.tangential_stiffness];
+    let pressed = respond(&law, [-2.0 / kn, 0.0], &State::default()).state;
+    let limit = 1.5 + 0.6 * 2.0;
+    let stuck = respond(&law, [-2.0 / kn, 0.999_999 * limit / kt], &pressed);
+    assert_eq!((stuck.state.status, stuck.state.own[1]), (0, 0.0));
+    // at the first slip the traction falls by c at once: c²/(2 K_T) is released, friction on c/K_T dissipated
+    let slipped = respond(&law, [-2.0 / kn, 5e-4], &pressed);
+    close(slipped.traction.y, 1.2, 1e-12, "friction alone");
+    close(slipped.released, 1.5 * 1.5 / (2.0 * kt), 1e-15, "released");
+    close(slipped.dissipation, 1.2 * (5e-4 - 1.2 / kt), 1e-15, "dissipated");
+    assert_eq!(slipped.state.own[1], 1.0);
+    let stored = |state: &State| Law::Coulomb(law).stored(state);
+    // work on the way: elastic up to the limit, then friction
+    let work = 0.5 * limit * limit / kt + 1.2 * (5e-4 - limit / kt);
+    close(
+        stored(&slipped.state) - stored(&pressed) + slipped.dissipation + slipped.released,
+        work,
+        1e-15,
+        "energy",
+    );
+    let again = respond(&law, [-2.0 / kn, 1e-3], &slipped.state);
+    assert_eq!((again.released, again.traction.y), (0.0, slipped.traction.y));
+    // faces that were apart have none either
+    let apart = respond(&law, [1e-3, 0.0], &pressed);
+    assert_eq!((apart.state.own[1], apart.state.status), (1.0, 4));
+    let met = respond(&law, [-2.0 / kn, 1e-3], &apart.state);
+    close(met.traction.y, 1.2, 1e-12, "friction of faces that were apart");
+    // by default they have it again
+    let apart = respond(&Coulomb { cohesion_lost: LossOfCohesion::Never, ..law }, [1e-3, 0.0], &pressed);
+    assert_eq!(apart.state.own[1], 0.0);
 }

@@ -12,7 +12,7 @@
 //! too. Every sequence of events is counted, so that none is left out.
 
 use crate::law_help::Random;
-use midplane::law::{Coulomb, Integration, Law, Local, N, PointLaw, Response, State, T};
+use midplane::law::{Coulomb, Integration, Law, Local, LossOfCohesion, N, PointLaw, Response, State, T};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 
@@ -39,6 +39,8 @@ impl Case {
             friction_coefficient: mu,
             cohesion: if random.coin() { 0.0 } else { random.between(0.0, 2.0) },
             dilatancy: if random.coin() { 0.0 } else { random.between(0.0, mu) },
+            dilatancy_end: if random.coin() { None } else { Some(random.power(-1.0, 1.5) / kn) },
+            cohesion_lost: LossOfCohesion::Never,
         };
         law.check().unwrap();
         let gap = if random.coin() { 0.0 } else { random.between(0.0, 2.0) / kn };
@@ -126,8 +128,14 @@ fn cases(seed: u64, count: usize, mut check: impl FnMut(&Case) -> bool) {
 fn the_parts_of_a_way_make_no_difference() {
     let mut worst = [0.0_f64; 4];
     cases(1, 6000, |case| {
-        let whole = respond(&case.law, case.end, &case.old);
-        for parts in [3, 17] {
+        for (parts, cohesion_lost) in [
+            (3, LossOfCohesion::Never),
+            (17, LossOfCohesion::Never),
+            (3, LossOfCohesion::AtSlip),
+            (17, LossOfCohesion::AtSlip),
+        ] {
+            let case = &Case { law: Coulomb { cohesion_lost, ..case.law }, ..*case };
+            let whole = respond(&case.law, case.end, &case.old);
             let (mut state, mut dissipated, mut released) = (case.old, 0.0, 0.0);
             for part in 1..=parts {
                 let response = respond(&case.law, case.at(part as f64 / parts as f64), &state);
@@ -295,6 +303,7 @@ fn many_steps_of_backward_euler_tend_to_it() {
     let steps = 4000;
     let mut worst = [0.0_f64; 2];
     cases(4, 1500, |case| {
+        let case = &Case { law: Coulomb { dilatancy_end: None, ..case.law }, ..*case };
         let law = &case.law;
         let whole = respond(law, case.end, &case.old);
         let (mut state, mut dissipated) = (case.old, 0.0);

@@ -2,7 +2,7 @@
 
 use crate::law_help::{EXAMPLE_2, Reference, close};
 use midplane::law::path::{LawPath, PathError, PathRow, columns, drive, write_csv};
-use midplane::law::{Coulomb, Cracking, Elastic, Integration, Law, Local, State, Unloading};
+use midplane::law::{Coulomb, Cracking, Elastic, Integration, Law, Local, LossOfCohesion, State, Unloading};
 
 const STEPPING: Integration = Integration::Tolerance(1e-6);
 
@@ -12,6 +12,8 @@ const BLOCK: Law = Law::Coulomb(Coulomb {
     friction_coefficient: 0.6,
     cohesion: 0.0,
     dilatancy: 0.0,
+    dilatancy_end: None,
+    cohesion_lost: LossOfCohesion::Never,
 });
 
 /// Segments as (control, start, end) of n, the same of t, and points; control "d" or "s".

@@ -11,7 +11,7 @@
 
 use crate::law_help::{EXAMPLE_2, Random, close};
 use midplane::law::{
-    Coulomb, Cracking, Integration, Law, Local, LocalMatrix, Response, State, Unloading, WORK,
+    Coulomb, Cracking, Integration, Law, Local, LocalMatrix, LossOfCohesion, Response, State, Unloading, WORK,
 };
 use nalgebra::{Rotation3, Unit};
 
@@ -49,6 +49,8 @@ fn coulomb(random: &mut Random) -> Coulomb {
         friction_coefficient: friction,
         cohesion: if random.coin() { 0.0 } else { random.between(0.1, 3.0) },
         dilatancy: if random.coin() { 0.0 } else { friction * random.between(0.0, 1.0) },
+        dilatancy_end: None,
+        cohesion_lost: LossOfCohesion::Never,
     }
 }
 
@@ -183,6 +185,8 @@ fn friction_whose_slip_turns_converges_to_the_closed_form_with_first_order() {
         friction_coefficient: 0.6,
         cohesion: 0.5,
         dilatancy: 0.0,
+        dilatancy_end: None,
+        cohesion_lost: LossOfCohesion::Never,
     };
     let (sigma, kt) = (-4.0, law.tangential_stiffness);
     let limit = law.cohesion - law.friction_coefficient * sigma;

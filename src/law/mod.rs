@@ -24,7 +24,7 @@ mod variable;
 
 pub use admissible::Inadmissible;
 pub use cohesive::{Cohesive, MixedMode, NamedSoftening, Softening};
-pub use coulomb::Coulomb;
+pub use coulomb::{Coulomb, LossOfCohesion};
 pub use cracking::{Cracking, Unloading, WORK};
 pub use elastic::Elastic;
 pub use local::{Local, LocalMatrix, N, S, T, diagonal_rows, local, write_diagonal, write_rows};

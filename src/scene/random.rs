@@ -63,12 +63,12 @@ mod tests {
     #[test]
     fn every_field_has_its_moments_and_its_correlation() {
         let length = 0.3;
-        for seed in [1, 2, 7, 42, 1 << 40] {
+        for seed in [1, 7, 1 << 40] {
             let field = RandomField::new(seed, length);
             for direction in [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.6, -0.8]] {
                 let [a, b, c] = direction;
                 let step = 0.1 * length;
-                let values: Vec<f64> = (0..200_000)
+                let values: Vec<f64> = (0..60_000)
                     .map(|k| k as f64 * step)
                     .map(|s| field.at(a * s + 5.0, b * s - 3.0, c * s))
                     .collect();

@@ -18,6 +18,7 @@
 //! An initial gap g is r_n^p = −g at the start: the jump at which the faces meet. Not in the paper, which only names
 //! friction laws (§3.2); classical otherwise.
 
+mod faces;
 mod jet;
 mod lagged;
 mod turned;
@@ -29,8 +30,9 @@ use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, error_at, not_negative, positive};
 use super::local::{Local, N, shear};
-use super::{Integration, OWN, PointLaw, Response, State, Strength, Unresolved};
+use super::{Integration, LawVariable, OWN, PointLaw, Response, State, Strength, Unresolved};
 
+use faces::Faces;
 use turned::Turned;
 
 /// Parameters of the Coulomb law.
@@ -49,7 +51,34 @@ pub struct Coulomb {
     /// Dilatancy tan ψ [-]: opening per slip, at most the friction coefficient. Default 0.
     #[serde(default)]
     pub dilatancy: f64,
+    /// Total |slip| at which dilatancy becomes 0 [length]. Default: never.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dilatancy_end: Option<f64>,
+    /// Loss of cohesion: `never` (default) or `at_slip`.
+    #[serde(default)]
+    pub cohesion_lost: LossOfCohesion,
 }
+
+/// Loss of cohesion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LossOfCohesion {
+    /// Faces that meet again have it again.
+    #[default]
+    Never,
+    /// For good, at the first slip or opening.
+    AtSlip,
+}
+
+/// Index of the total |slip| among the variables.
+const SLIP_TOTAL: usize = 0;
+/// Index of the loss of cohesion.
+const LOST: usize = 1;
+
+const VARIABLES: [LawVariable; 2] = [
+    LawVariable { name: "slip_total", unit: "length", meaning: "total |slip|", place: SLIP_TOTAL },
+    LawVariable { name: "cohesion_lost", unit: "-", meaning: "1 where cohesion is lost", place: LOST },
+];
 
 /// Status of a closed point that does not slide.
 const STICK: u8 = 0;
@@ -59,6 +88,20 @@ const SLIP: u8 = 2;
 const OPEN: u8 = 4;
 
 impl PointLaw for Coulomb {
+    fn all_variables() -> &'static [LawVariable] {
+        &VARIABLES
+    }
+
+    /// Those that its keys ask for.
+    fn variables(&self) -> &'static [LawVariable] {
+        match (self.dilatancy_end.is_some(), self.cohesion_lost) {
+            (true, LossOfCohesion::AtSlip) => &VARIABLES,
+            (true, LossOfCohesion::Never) => &VARIABLES[..LOST],
+            (false, LossOfCohesion::AtSlip) => &VARIABLES[LOST..],
+            (false, LossOfCohesion::Never) => &[],
+        }
+    }
+
     /// Stiffnesses above zero; friction, cohesion and dilatancy zero or more; dilatancy at most the friction.
     fn check(&self) -> Result<(), Inadmissible> {
         positive("normal_stiffness", self.normal_stiffness)?;
@@ -66,6 +109,9 @@ impl PointLaw for Coulomb {
         not_negative("friction_coefficient", self.friction_coefficient)?;
         not_negative("cohesion", self.cohesion)?;
         not_negative("dilatancy", self.dilatancy)?;
+        if let Some(end) = self.dilatancy_end {
+            positive("dilatancy_end", end)?;
+        }
         if self.dilatancy > self.friction_coefficient {
             return error_at(
                 "dilatancy",
@@ -84,15 +130,16 @@ impl PointLaw for Coulomb {
         true
     }
 
-    fn strength(&self, _: &State) -> Option<Strength> {
-        let (cohesion, tan_friction) = (self.cohesion, self.friction_coefficient);
+    fn strength(&self, state: &State) -> Option<Strength> {
+        let (cohesion, tan_friction) = (Faces::of(self, &state.own).law.cohesion, self.friction_coefficient);
         Some(Strength { tensile_strength: 0.0, cohesion, tan_friction })
     }
 
     /// Excess over the surface |τ| ≤ c − μ σ, σ ≤ 0.
-    fn excess(&self, traction: &Local, _: &[f64; OWN]) -> f64 {
+    fn excess(&self, traction: &Local, own: &[f64; OWN]) -> f64 {
         let sigma = traction[N];
-        sigma.max(shear(traction) + self.friction_coefficient * sigma - self.cohesion)
+        let cohesion = Faces::of(self, own).law.cohesion;
+        sigma.max(shear(traction) + self.friction_coefficient * sigma - cohesion)
     }
 
     /// Open faces carry nothing.
@@ -107,15 +154,23 @@ impl PointLaw for Coulomb {
     /// Open, stick or slip at the end of the straight way from the old jump.
     fn respond(&self, jump: Local, old: &State, _: Integration) -> Result<Response, Unresolved> {
         let turned = Turned::new(jump, old);
+        let faces = Faces::of(self, &old.own);
         let end =
-            way::follow(self, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
+            way::follow(&faces, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
+        let mut own = old.own;
+        if self.dilatancy_end.is_some() {
+            own[SLIP_TOTAL] += end.slip;
+        }
+        if self.cohesion_lost == LossOfCohesion::AtSlip && end.loosened {
+            own[LOST] = 1.0;
+        }
         let [sigma, tau] = end.traction;
         let traction = turned.space(Vector2::new(sigma.value, tau.value));
         let jump_plastic = turned.irreversible(end.jump_plastic, jump);
         Ok(Response {
             traction,
             stiffness: turned.stiffness(&end.traction),
-            state: State { jump, traction, jump_plastic, status: end.status, ..*old },
+            state: State { jump, traction, jump_plastic, own, status: end.status },
             dissipation: end.dissipation.value,
             dissipation_gradient: turned.space(end.dissipation.gradient),
             released: end.released,
@@ -129,7 +184,7 @@ impl PointLaw for Coulomb {
         integration: Integration,
         _: bool,
     ) -> Result<Response, Unresolved> {
-        match self.dilatancy == 0.0 {
+        match self.dilatancy == 0.0 && self.cohesion_lost == LossOfCohesion::Never {
             true => Ok(lagged::answer(self, jump, old)),
             false => self.respond(jump, old, integration),
         }

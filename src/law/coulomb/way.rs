@@ -4,13 +4,16 @@
 //! faces meet   r_n(s) = r_n^p                       from there r_t^p = r_t(s)
 //! slip starts  d τ(s) + μ σ(s) = c                  d = ±1, the direction of slip
 //! faces part   r_n(s) = r_n^p + tanψ |slip|(s)      that is σ(s) = 0
+//! dilatancy ends  |slip|(s) = what is left of it           the way goes on without
+//! cohesion is lost  at the first slip, where asked for     the traction drops at once, then friction alone
 //! ```
 //!
-//! All three are linear in s. r_n grows or falls all along the way, so faces meet or part, never both; slip in one
+//! All are linear in s. r_n grows or falls all along the way, so faces meet or part, never both; slip in one
 //! direction goes on to the end or to the parting, since the domain |τ| ≤ c − μ σ is convex and the rates are constant.
 
 use nalgebra::Vector2;
 
+use super::faces::Faces;
 use super::jet::Jet;
 use super::{Coulomb, OPEN, SLIP, STICK};
 use crate::law::local::{N, T};
@@ -22,11 +25,14 @@ pub(super) struct WayEnd {
     pub(super) dissipation: Jet,
     pub(super) released: f64,
     pub(super) status: u8,
+    /// |slip| on the way, and whether there was any, or an opening.
+    pub(super) slip: f64,
+    pub(super) loosened: bool,
 }
 
 /// End of the straight way between two jumps, from the irreversible jump at its start.
 pub(super) fn follow(
-    law: &Coulomb,
+    faces: &Faces,
     start: Vector2<f64>,
     plastic: Vector2<f64>,
     jump: Vector2<f64>,
@@ -34,15 +40,19 @@ pub(super) fn follow(
     let [n, t] = Jet::variables(jump);
     if start.x <= plastic.x {
         let from = [(start.x - plastic.x).into(), (start.y - plastic.y).into()];
-        return ClosedWay { from, to: [n - plastic.x, t - plastic.y], plastic, jump_t: jump.y }.follow(law);
+        return ClosedWay { from, to: [n - plastic.x, t - plastic.y], plastic, jump_t: jump.y }.follow(faces);
     }
+    let faces = &faces.apart();
     if jump.x > plastic.x {
         return open(plastic.x, jump.y);
     }
     let left = (n - plastic.x) / (n - start.x); // 1 − s at the meeting
     let to = [n - plastic.x, left * (t - start.y)];
     let plastic = Vector2::new(plastic.x, jump.y - to[T].value);
-    ClosedWay { from: [0.0.into(); 2], to, plastic, jump_t: jump.y }.follow(law)
+    WayEnd {
+        loosened: true,
+        ..ClosedWay { from: [0.0.into(); 2], to, plastic, jump_t: jump.y }.follow(faces)
+    }
 }
 
 /// Open faces at the end, r_t^p := r_t.
@@ -53,6 +63,8 @@ fn open(plastic_n: f64, jump_t: f64) -> WayEnd {
         dissipation: 0.0.into(),
         released: 0.0,
         status: OPEN,
+        slip: 0.0,
+        loosened: true,
     }
 }
 
@@ -82,7 +94,8 @@ impl ClosedWay {
     }
 
     /// Stick up to the first event, then slip or parting.
-    fn follow(&self, law: &Coulomb) -> WayEnd {
+    fn follow(&self, faces: &Faces) -> WayEnd {
+        let law = &faces.law;
         let forward = (self.to[T].value - self.from[T].value).signum();
         let parts = self.rise(|elastic| elastic[N]);
         let slips = [forward, -forward]
@@ -95,7 +108,7 @@ impl ClosedWay {
             let apex = parts.filter(|_| law.cohesion == 0.0);
             let start = apex.map_or(start, |apex| start.min(apex));
             if parts.is_none_or(|parting| start.value <= parting.value) {
-                return self.slip(&slide, start);
+                return self.slip(faces, &slide, start);
             }
         }
         if let Some(parting) = parts {
@@ -108,13 +121,28 @@ impl ClosedWay {
             dissipation: 0.0.into(),
             released: 0.0,
             status: STICK,
+            slip: 0.0,
+            loosened: false,
         }
     }
 
     /// Slip from `start` on, to the end or to the parting.
-    fn slip(&self, slide: &Slide, start: Jet) -> WayEnd {
+    fn slip(&self, faces: &Faces, slide: &Slide, start: Jet) -> WayEnd {
         let law = slide.law;
         let sigma = (law.normal_stiffness * self.at(start)[N]).min(0.0.into());
+        if let Some(drop) = faces.drop(sigma) {
+            let moved = [drop.opening.into(), (slide.direction * drop.slip).into()];
+            return self.onwards(start, moved, &drop.after, drop.slip, drop.dissipation, drop.released);
+        }
+        if let Some(ends) = self.rise(|elastic| slide.slip(elastic) - faces.left)
+            && ends.value >= start.value
+            && self.rise(|elastic| slide.sigma(elastic)).is_none_or(|parting| ends.value < parting.value)
+        {
+            let there = slide.sigma(&self.at(ends));
+            let dissipation = slide.dissipation(faces.left, sigma, there);
+            let moved = [law.dilatancy * faces.left, slide.direction * faces.left];
+            return self.onwards(ends, moved, &faces.worn(), faces.left.value, dissipation, 0.0);
+        }
         let Some(parting) = self.rise(|elastic| slide.sigma(elastic)) else {
             return self.slipping(slide, sigma);
         };
@@ -131,11 +159,38 @@ impl ClosedWay {
         // at the apex without cohesion: dilatancy of slip the other way keeps the faces together
         let back = Slide { law, direction: -slide.direction };
         if law.cohesion == 0.0 && back.sigma(&rest.to).value < 0.0 {
-            let end = rest.slipping(&back, 0.0.into());
-            return WayEnd { dissipation: dissipation + end.dissipation, ..end };
+            let end = rest.slip(&Faces { left: faces.left - slip, ..*faces }, &back, 0.0.into());
+            return WayEnd { dissipation: dissipation + end.dissipation, slip: slip.value + end.slip, ..end };
         }
         let released = law.shear_energy(law.cohesion);
-        WayEnd { dissipation, released, ..open(rest.plastic.x, self.jump_t) }
+        WayEnd { dissipation, released, slip: slip.value, ..open(rest.plastic.x, self.jump_t) }
+    }
+
+    /// The rest of the way from a place on, after an irreversible jump and with other faces.
+    fn onwards(
+        &self,
+        from: Jet,
+        moved: [Jet; 2],
+        faces: &Faces,
+        slip: f64,
+        dissipation: Jet,
+        released: f64,
+    ) -> WayEnd {
+        let at = self.at(from);
+        let rest = ClosedWay {
+            from: [N, T].map(|i| at[i] - moved[i]),
+            to: [N, T].map(|i| self.to[i] - moved[i]),
+            plastic: self.plastic + Vector2::new(moved[N].value, moved[T].value),
+            jump_t: self.jump_t,
+        };
+        let end = rest.follow(faces);
+        WayEnd {
+            dissipation: dissipation + end.dissipation,
+            released: released + end.released,
+            slip: slip + end.slip,
+            loosened: true,
+            ..end
+        }
     }
 
     /// Slip to the end; `sigma` where it starts.
@@ -148,6 +203,8 @@ impl ClosedWay {
             dissipation: slide.dissipation(slip, sigma, end),
             released: 0.0,
             status: SLIP,
+            slip: slip.value,
+            loosened: slip.value > 0.0,
         }
     }
 }
