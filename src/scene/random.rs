@@ -68,7 +68,7 @@ mod tests {
             for direction in [[1.0, 0.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.6, -0.8]] {
                 let [a, b, c] = direction;
                 let step = 0.1 * length;
-                let values: Vec<f64> = (0..60_000)
+                let values: Vec<f64> = (0..200_000)
                     .map(|k| k as f64 * step)
                     .map(|s| field.at(a * s + 5.0, b * s - 3.0, c * s))
                     .collect();
