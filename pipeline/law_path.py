@@ -144,7 +144,7 @@ def cross(axes):
 
 
 def draw_stress_plane(axes, rows, work, label, stress):
-    """The surfaces at a few stages, and the path."""
+    """The surfaces at a few stages where they are hyperbolas, and the path."""
     sigma, tau = rows["traction_n"], rows["traction_t"]
     chi = np.nan_to_num(rows["tensile_strength"]).max()
     reach = max(np.ptp(sigma), np.abs(tau).max(), chi, 1e-300)
@@ -154,7 +154,7 @@ def draw_stress_plane(axes, rows, work, label, stress):
     axes.set(xlim=(low, high), xlabel=f"normal traction σ [{stress}]")
     axes.set(ylim=(bottom, limit), ylabel=f"shear traction τ [{stress}]")
     cross(axes)
-    if np.isfinite(rows["cohesion"]).all():
+    if np.isfinite(rows["cohesion"]).all() and "damage" not in rows.dtype.names:
         norm = Normalize(0, max(work.max(), 1e-300))
         for k in stages(rows, SURFACES):
             row = rows[k]
