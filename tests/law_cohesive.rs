@@ -462,6 +462,14 @@ fn what_no_point_can_follow_is_refused() {
     for points in [vec![(0.0, 1.0), (1.0, 0.1)], vec![(0.0, 1.0), (1.0, 0.5), (0.5, 0.0)], vec![(0.0, 1.0)]] {
         assert_eq!(refused(Cohesive { softening: Softening::Points(points), ..composite() }).0, "softening");
     }
+    let crack = Law::Cohesive(composite());
+    let pulled = crack.initial_state(Local::new(3.0, 0.0, 0.0), 0.0).unwrap();
+    assert_eq!(crack.damaged(pulled, 0.5).unwrap_err().key, "initial_damage");
+    assert_eq!(crack.damaged(State::default(), 1.5).unwrap_err().key, "initial_damage");
+    let half = crack.damaged(State::default(), 0.5).unwrap();
+    close(half.own[WORK], 0.15, 1e-15, "half of the energy");
+    let rest = crack.respond(Local::new(1.0, 0.0, 0.0), &half, EXACT).unwrap();
+    close(rest.dissipation, 0.15, 1e-12, "what is left of it");
     let law: Law = serde_json::from_str(
         r#"{ "type": "cohesive", "normal_stiffness": 1e6, "tangential_stiffness": 4e5, "tensile_strength": 60,
              "shear_strength": 90, "fracture_energy_i": 0.3, "fracture_energy_ii": 0.9, "softening": [[0, 1], [0.02, 0]],

@@ -1,7 +1,7 @@
 //! States from which a law point starts.
 
 use super::admissible::{Inadmissible, error_at, not_negative};
-use super::local::Local;
+use super::local::{Local, N};
 use super::point::{intact_strength, pressed};
 use super::state::listed;
 use super::{Law, OWN, State};
@@ -56,6 +56,10 @@ impl Law {
         if !(0.0..=1.0).contains(&share) {
             let what = format!("initial_damage = {share} is no share");
             return error_at("initial_damage", what, "it lies between 0 and 1");
+        }
+        if intact.traction[N] > 0.0 {
+            let what = "initial_traction pulls on a crack that is there at the start";
+            return error_at("initial_damage", what, "its faces are closed and untied: take the tension off");
         }
         let Some(own) = self.lost(share) else {
             return error_at("initial_damage", "this law knows no initial damage", "remove it");

@@ -1,7 +1,7 @@
 //! Faces as they are at a state: what is left of cohesion and dilatancy.
 
 use super::jet::Jet;
-use super::{Coulomb, LOST, LossOfCohesion, SLIP_TOTAL};
+use super::parameters::{Coulomb, LOST, LossOfCohesion, SLIP_TOTAL};
 use crate::law::OWN;
 
 /// Faces with the cohesion and the dilatancy that they still have.

@@ -21,64 +21,21 @@
 mod faces;
 mod jet;
 mod lagged;
+mod parameters;
 mod turned;
 mod way;
 
+pub use parameters::{Coulomb, LossOfCohesion};
+
 use nalgebra::Vector2;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, error_at, not_negative, positive};
 use super::local::{Local, N, shear};
 use super::{Integration, LawVariable, OWN, PointLaw, Response, State, Strength, Unresolved};
 
 use faces::Faces;
+use parameters::{LOST, SLIP_TOTAL, VARIABLES};
 use turned::Turned;
-
-/// Parameters of the Coulomb law.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Coulomb {
-    /// Normal (penalty) stiffness of the closed interface K_N [stress / length].
-    pub normal_stiffness: f64,
-    /// Tangential (penalty) stiffness of the sticking interface K_T [stress / length].
-    pub tangential_stiffness: f64,
-    /// Friction coefficient μ [-]; 0 is contact without friction.
-    pub friction_coefficient: f64,
-    /// Cohesion c [stress], constant, carried only while the interface is closed. Default 0.
-    #[serde(default)]
-    pub cohesion: f64,
-    /// Dilatancy tan ψ [-]: opening per slip, at most the friction coefficient. Default 0.
-    #[serde(default)]
-    pub dilatancy: f64,
-    /// Total |slip| at which dilatancy becomes 0 [length]. Default: never.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub dilatancy_end: Option<f64>,
-    /// Loss of cohesion: `never` (default) or `at_slip`.
-    #[serde(default)]
-    pub cohesion_lost: LossOfCohesion,
-}
-
-/// Loss of cohesion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LossOfCohesion {
-    /// Faces that meet again have it again.
-    #[default]
-    Never,
-    /// For good, at the first slip or opening.
-    AtSlip,
-}
-
-/// Index of the total |slip| among the variables.
-const SLIP_TOTAL: usize = 0;
-/// Index of the loss of cohesion.
-const LOST: usize = 1;
-
-const VARIABLES: [LawVariable; 2] = [
-    LawVariable { name: "slip_total", unit: "length", meaning: "total |slip|", place: SLIP_TOTAL },
-    LawVariable { name: "cohesion_lost", unit: "-", meaning: "1 where cohesion is lost", place: LOST },
-];
 
 /// Status of a closed point that does not slide.
 const STICK: u8 = 0;
