@@ -40,7 +40,7 @@ pub(super) struct WayPlace {
 pub(super) struct Growth {
     /// D at the end.
     pub damage: ByJump,
-    /// Where growth begins, and where it ends.
+    /// Beginning and end of the growth.
     pub ends: [WayPlace; 2],
 }
 

@@ -145,7 +145,7 @@ pub(super) fn euler_step<const D: usize>(
     (stage.end(dissipation), stage)
 }
 
-/// What a step says of places within it: parabolas through its start, its first stage and its end.
+/// Estimate of a place within a step, on parabolas through its start, its first stage and its end.
 pub(super) fn within<const D: usize>(from: &WayPoint<D>, step: &TwoStages<D>, x: f64) -> Near {
     let [first, second] = &step.stages;
     let at = |start: f64, middle: f64, end: f64| {
@@ -209,7 +209,7 @@ pub(super) fn two_stage_step<const D: usize>(
 }
 
 impl<const D: usize> Stage<D> {
-    /// What a first stage says of the end of its step, in a straight line.
+    /// Estimate of the end of a step from its first stage, on a straight line.
     fn onwards(&self, from: &WayPoint<D>) -> Near {
         let tau = shear(&from.traction);
         let ahead = |before: f64, now: f64| before + (now - before) / GAMMA;
