@@ -87,7 +87,7 @@ fn straight<const D: usize>(
     crack: &Crack,
 ) -> Option<Response> {
     let change: SVector<f64, D> = jump - narrow(&old.jump);
-    let crack = &crack.heading(surface, old.traction[N], change[N]);
+    let crack = &crack.heading(surface, change[N]);
     let stays = crack.border(surface, change[N]).is_none_or(|gap| (gap - crack.gap) / change[N] > 1.0);
     if crack.regime == Regime::Free || !stays || change == SVector::<f64, D>::zeros() {
         return None;

@@ -25,8 +25,6 @@ use super::variables::{BRIDGE, OPENING, SLIP_OPEN, WORK};
 
 /// A gap this close to the anchor, relative, is at it.
 pub(super) const AT_ANCHOR: f64 = 1e-12;
-/// A traction this far from the secant, relative, is on it.
-const BESIDE: f64 = 1e-6;
 
 /// Parts of the elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,17 +97,7 @@ impl Crack {
         } else {
             Regime::Secant
         };
-        if crack.regime == Regime::Secant {
-            crack.pass(sigma);
-        }
         crack
-    }
-
-    /// The secant through what is carried at this gap, not beside it by rounding: a way back begins where the way there ended.
-    pub fn pass(&mut self, sigma: f64) {
-        if (sigma - self.bridge * self.gap).abs() <= BESIDE * sigma {
-            self.bridge = sigma / self.gap;
-        }
     }
 
     /// A spent crack that is open where it carries nothing.
@@ -176,13 +164,12 @@ impl Crack {
         }
     }
 
-    /// The crack as it sets out on a way from a traction: from the anchor back it is on the secant at once.
-    pub fn heading(mut self, surface: &Surface, sigma: f64, change: f64) -> Crack {
+    /// The crack as it sets out on a way: from the anchor back it is on the secant at once.
+    pub fn heading(mut self, surface: &Surface, change: f64) -> Crack {
         let back = self.regime == Regime::Envelope && change < 0.0;
         let anchor = if back { self.border(surface, change) } else { None };
         if anchor.is_some_and(|anchor| self.gap <= anchor * (1.0 + AT_ANCHOR)) {
             (self.regime, self.stored) = (Regime::Secant, 0.0);
-            self.pass(sigma);
         }
         self
     }

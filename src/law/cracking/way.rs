@@ -104,7 +104,6 @@ impl<'a, const D: usize> LawWay<'a, D> {
             }
             (Regime::Envelope, _) => {
                 (crack.regime, crack.stored) = (Regime::Secant, 0.0);
-                crack.pass(self.point.traction[N]);
                 self.point.traction[N] = crack.bridge * crack.gap;
             }
             _ => self.close(),
