@@ -38,14 +38,14 @@ fn opened() -> State {
 
 #[divan::bench]
 fn elastic_law(bencher: Bencher) {
-    let springs = Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 };
+    let springs = Elastic::springs(1e7, 1e7);
     bencher
         .bench_local(|| black_box(springs).traction(black_box(Local::new(1e-6, 2e-6, 0.0)), Local::zeros()));
 }
 
 #[divan::bench]
 fn elastic_law_full_answer(bencher: Bencher) {
-    let springs = Law::Elastic(Elastic { normal_stiffness: 1e7, tangential_stiffness: 1e7 });
+    let springs = Law::Elastic(Elastic::springs(1e7, 1e7));
     let old = State::default();
     let jump = Local::new(1e-6, 2e-6, 0.0);
     bencher.bench_local(|| springs.respond(black_box(jump), black_box(&old), Integration::Tolerance(1e-4)));

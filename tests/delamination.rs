@@ -3,12 +3,13 @@
 //! ```text
 //! DCB   J = P (θ_upper + θ_lower)                      forces P, rotations θ where they act
 //! ENF   J = P/2 (θ_left + θ_right + 2 θ_middle)        three-point bending, rotations towards the crack's end
+//! MMB   J = Σ F θ                                       of all forces, reactions too; G of the share that beam theory has
 //! ```
 //!
 //! J is exact for beams of any length of process zone (per width; Paris and Paris 1988, Stigh, Alfredsson and Biel 2009).
 
 use crate::common::*;
-use midplane::history::ModelState;
+use midplane::history::{Clock, Equations, History, Means, ModelState};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
@@ -19,7 +20,10 @@ const LENGTH: f64 = 100.0;
 const GI: f64 = 0.3;
 const GII: f64 = 0.9;
 
-fn beams(softening: &str, crack: f64, step: &str) -> Problem {
+/// Shear strength and criterion of the two beams in one mode.
+const ONE_MODE: &str = r#""shear_strength": 30, "mixed_mode": { "benzeggagh_kenane": 1.75 }"#;
+
+fn beams(softening: &str, shear: &str, crack: f64, step: &str) -> Problem {
     let flat = |x: f64, y: f64| [x, y];
     let arm = |y: f64, n: usize| {
         let mut mesh = rectangle(&even(0.0, LENGTH, n), &even(y, y + HEIGHT, 2), Shape::Quadrilateral8, flat);
@@ -47,8 +51,7 @@ fn beams(softening: &str, crack: f64, step: &str) -> Problem {
           "interfaces": {{ "joint": {{ "side_a": "lower.top", "side_b": "upper.bottom",
             "initial_damage": "x < {crack}",
             "law": {{ "type": "cohesive", "normal_stiffness": 1e5, "tangential_stiffness": 1e5, "tensile_strength": 20,
-              "shear_strength": 30, "fracture_energy_i": {GI}, "fracture_energy_ii": {GII}, "softening": {softening},
-              "mixed_mode": {{ "benzeggagh_kenane": 1.75 }} }} }} }},
+              {shear}, "fracture_energy_i": {GI}, "fracture_energy_ii": {GII}, "softening": {softening} }} }} }},
           "steps": [ {step} ] }}"#
     );
     bind(&text, vec![arm(0.0, 80), arm(HEIGHT, 100)]).unwrap()
@@ -73,7 +76,7 @@ fn a_double_cantilever_costs_the_energy_of_mode_i() {
         "fix": { "lower.start_axis": ["y"], "lower.end_axis": ["x"], "upper.end_axis": ["x"] },
         "displace": { "upper.start_axis": { "y": 5 } } }"#;
     for softening in [r#""linear""#, r#""exponential""#] {
-        let problem = beams(softening, 30.0, step);
+        let problem = beams(softening, ONE_MODE, 30.0, step);
         let (states, _) = solve(&problem);
         let last = states.last().unwrap();
         let force = reaction(&problem, last, 1, "start_axis");
@@ -91,7 +94,7 @@ fn an_end_notched_beam_costs_the_energy_of_mode_ii() {
         "fix": { "lower.start_low": ["y"], "lower.end_low": ["y", "x"] },
         "displace": { "upper.middle_high": { "y": -6 } } }"#;
     for softening in [r#""linear""#, r#""bilinear""#] {
-        let problem = beams(softening, 36.0, step);
+        let problem = beams(softening, ONE_MODE, 36.0, step);
         let (states, _) = solve(&problem);
         let force = |state: &ModelState| -reaction(&problem, state, 1, "middle_high");
         let j = |state: &ModelState| {
@@ -110,5 +113,48 @@ fn an_end_notched_beam_costs_the_energy_of_mode_ii() {
         }
         let most = states.iter().map(j).fold(0.0, f64::max);
         close(most, GII, 0.01, GII, softening);
+    }
+}
+
+/// Mixed-mode bending: a lever of length c, as a multiple of half the span, presses the middle down by P (c + 1) and pulls the upper
+/// arm up by P c. Beam theory has G_I/G_II = 4/3 ((3 c − 1)/(c + 1))²; strengths that are as the roots of the energies make
+/// what a point costs depend on the end of its way alone (Turon et al. 2010).
+#[test]
+fn mixed_mode_bending_costs_the_energy_of_its_mixity() {
+    let law = format!(r#""shear_strength": {}, "mixed_mode": {{ "power": 1 }}"#, 20.0 * (GII / GI).sqrt());
+    for lever in [0.45, 0.6, 1.2] {
+        let (pull, push) = (20.0 * lever, -20.0 * (lever + 1.0));
+        let step = format!(
+            r#"{{ "name": "bend", "increments": 40, "control": "auto",
+            "fix": {{ "lower.start_low": ["y"], "lower.end_low": ["y", "x"] }},
+            "load": {{ "upper.start_axis": {{ "force": [0, {pull}] }}, "upper.middle_high": {{ "force": [0, {push}] }} }} }}"#
+        );
+        let problem = beams(r#""linear""#, &law, 28.0, &step);
+        let mut clock = Clock::new("test");
+        let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
+        let mut history = History::new(&problem, &equations, clock);
+        let mut all = Vec::new();
+        while let Some(increment) = history.next().unwrap() {
+            let state = history.state();
+            if state.dissipated > 5.0 {
+                break;
+            }
+            let turned = |subdomain, section| rotation_of(&problem, state, subdomain, section);
+            let held = |point| reaction(&problem, state, 0, point);
+            let j = increment.load_factor * (pull * turned(1, "start") + push * turned(1, "middle"))
+                + held("start_low") * turned(0, "start")
+                + held("end_low") * turned(0, "end");
+            // the crack grows by some ten edges, with the process zone behind it
+            if state.dissipated > 2.0 {
+                all.push(j);
+            }
+        }
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        let first = 4.0 / 3.0 * ((3.0 * lever - 1.0) / (lever + 1.0)).powi(2);
+        let share = 1.0 / (1.0 + first);
+        let exact = 1.0 / ((1.0 - share) / GI + share / GII);
+        println!("lever {lever}: G_II/G {share:.4}, J {mean:.5} of {exact:.5}, {} rows", all.len());
+        close(mean, exact, 0.01, exact, &format!("lever {lever}"));
+        assert!(all.len() > 10);
     }
 }

@@ -9,13 +9,15 @@
 
 use crate::law_help::close;
 use midplane::law::{
-    Coulomb, Elastic, Integration, Law, Local, LocalMatrix, LossOfCohesion, PointLaw, Response, State, local,
+    Coulomb, Elastic, Integration, Law, Local, LocalMatrix, LossOfCohesion, N, PointLaw, Response, State,
+    local,
 };
 
 const STEPPING: Integration = Integration::Tolerance(1e-4);
 
 const BLOCK: Coulomb = Coulomb {
-    normal_stiffness: 1e4,
+    normal_stiffness: Some(1e4),
+    closure: None,
     tangential_stiffness: 1e4,
     friction_coefficient: 0.6,
     cohesion: 0.0,
@@ -55,7 +57,8 @@ fn a_driven_block_follows_its_friction_loop() {
         let mut state = respond(&BLOCK, [-2e-4, 0.0], &State::default()).state;
         let mut dissipated = 0.0;
         for &(slide, sigma, tau, slip, energy) in &rows {
-            let (end, spent, released) = walk(&BLOCK, &state, [sigma / BLOCK.normal_stiffness, slide], parts);
+            let (end, spent, released) =
+                walk(&BLOCK, &state, [sigma / BLOCK.elastic_stiffness()[N], slide], parts);
             state = end;
             dissipated += spent;
             close(state.traction.y, tau, 1e-12, "τ");
@@ -188,7 +191,7 @@ fn faces_that_part_dissipate_by_slip_and_release_the_rest() {
 /// ```
 #[test]
 fn dilatancy_holds_faces_together_past_the_apex() {
-    let law = Coulomb { normal_stiffness: 4e4, friction_coefficient: 1.0, dilatancy: 0.5, ..BLOCK };
+    let law = Coulomb { normal_stiffness: Some(4e4), friction_coefficient: 1.0, dilatancy: 0.5, ..BLOCK };
     let start = Law::Coulomb(law).initial_state(Local::new(-4.0, -3.0, 0.0), 0.0).unwrap();
     let (before, after) = (2.0 / 3.0 / 3e4, 26.0 * 13.0 / 18.0 / 3e4);
     let sigma = -4e4 / 3.0 * 1e-4 * 13.0 / 18.0;
@@ -257,7 +260,7 @@ fn dilatancy_presses_a_confined_interface() {
 
 #[test]
 fn the_elastic_law_adds_its_initial_traction() {
-    let springs = Elastic { normal_stiffness: 1e3, tangential_stiffness: 0.0 };
+    let springs = Elastic::springs(1e3, 0.0);
     let initial = Local::new(-2.0, 0.5, 0.0); // a direction without stiffness still carries it
     let law = Law::Elastic(springs);
     let state = law.initial_state(initial, 0.0).unwrap();
@@ -279,7 +282,7 @@ fn an_initial_traction_must_be_one_the_interface_can_carry() {
     assert_eq!(law.initial_state(Local::new(1.0, 0.0, 0.0), 0.0).unwrap_err().key, "initial_traction");
     // faces that overlap press on each other
     let pressed = law.initial_state(Local::zeros(), -1e-3).unwrap();
-    close(pressed.traction.x, -1e-3 * BLOCK.normal_stiffness, 1e-12, "−K_N times the overlap");
+    close(pressed.traction.x, -1e-3 * BLOCK.elastic_stiffness()[N], 1e-12, "−K_N times the overlap");
     assert_eq!(law.respond(Local::zeros(), &pressed, STEPPING).unwrap().traction, pressed.traction);
     assert_eq!(law.initial_state(Local::zeros(), f64::NAN).unwrap_err().key, "initial_gap");
 }
@@ -287,7 +290,7 @@ fn an_initial_traction_must_be_one_the_interface_can_carry() {
 #[test]
 fn dilatancy_ends_at_its_slip_whatever_the_steps() {
     let law = Coulomb { dilatancy: 0.2, dilatancy_end: Some(1e-3), ..BLOCK };
-    let [kn, kt] = [law.normal_stiffness, law.tangential_stiffness];
+    let [kn, kt, _] = law.elastic_stiffness();
     // pressed to -2 at a constant normal jump: dilatancy presses harder until it ends
     let start = respond(&law, [-2.0 / kn, 0.0], &State::default()).state;
     for parts in [1, 2, 7, 100] {
@@ -316,7 +319,7 @@ fn dilatancy_ends_at_its_slip_whatever_the_steps() {
 #[test]
 fn cohesion_that_is_lost_at_slip_is_gone_for_good_and_its_energy_told() {
     let law = Coulomb { cohesion: 1.5, cohesion_lost: LossOfCohesion::AtSlip, ..BLOCK };
-    let [kn, kt] = [law.normal_stiffness, law.tangential_stiffness];
+    let [kn, kt, _] = law.elastic_stiffness();
     let pressed = respond(&law, [-2.0 / kn, 0.0], &State::default()).state;
     let limit = 1.5 + 0.6 * 2.0;
     let stuck = respond(&law, [-2.0 / kn, 0.999_999 * limit / kt], &pressed);

@@ -7,7 +7,8 @@ use midplane::law::{Coulomb, Cracking, Elastic, Integration, Law, Local, LossOfC
 const STEPPING: Integration = Integration::Tolerance(1e-6);
 
 const BLOCK: Law = Law::Coulomb(Coulomb {
-    normal_stiffness: 1e4,
+    normal_stiffness: Some(1e4),
+    closure: None,
     tangential_stiffness: 1e4,
     friction_coefficient: 0.6,
     cohesion: 0.0,
@@ -46,7 +47,7 @@ fn a_row_is_stored_at_the_start_and_at_every_point() {
 
 #[test]
 fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
-    let springs = Law::Elastic(Elastic { normal_stiffness: 1e3, tangential_stiffness: 2e3 });
+    let springs = Law::Elastic(Elastic::springs(1e3, 2e3));
     let straight = path(&[("d", 0.0, 1.0, "s", 0.0, 4.0, 1)]);
     let csv = |law: &Law, path: &LawPath| {
         let mut out = Vec::new();

@@ -11,7 +11,8 @@
 
 use crate::law_help::{EXAMPLE_2, Random, close};
 use midplane::law::{
-    Coulomb, Cracking, Integration, Law, Local, LocalMatrix, LossOfCohesion, Response, State, Unloading, WORK,
+    Coulomb, Cracking, Integration, Law, Local, LocalMatrix, LossOfCohesion, N, PointLaw, Response, State,
+    Unloading, WORK,
 };
 use nalgebra::{Rotation3, Unit};
 
@@ -44,7 +45,8 @@ fn own(law: &Law, jump: Local, old: &State) -> Response {
 fn coulomb(random: &mut Random) -> Coulomb {
     let friction = random.between(0.1, 1.2);
     Coulomb {
-        normal_stiffness: random.power(4.0, 6.0),
+        normal_stiffness: Some(random.power(4.0, 6.0)),
+        closure: None,
         tangential_stiffness: random.power(4.0, 6.0),
         friction_coefficient: friction,
         cohesion: if random.coin() { 0.0 } else { random.between(0.1, 3.0) },
@@ -58,7 +60,7 @@ fn coulomb(random: &mut Random) -> Coulomb {
 fn law(random: &mut Random) -> (Law, f64) {
     if random.coin() {
         let law = coulomb(random);
-        return (Law::Coulomb(law), 3.0 / law.normal_stiffness.min(law.tangential_stiffness));
+        return (Law::Coulomb(law), 3.0 / law.elastic_stiffness()[N].min(law.tangential_stiffness));
     }
     let unloading = random.unloading();
     let law = random.cracking(unloading);
@@ -180,7 +182,8 @@ fn angle(kt: f64, limit: f64, x: f64) -> f64 {
 #[test]
 fn friction_whose_slip_turns_converges_to_the_closed_form_with_first_order() {
     let law = Coulomb {
-        normal_stiffness: 1e5,
+        normal_stiffness: Some(1e5),
+        closure: None,
         tangential_stiffness: 5e4,
         friction_coefficient: 0.6,
         cohesion: 0.5,
@@ -190,7 +193,7 @@ fn friction_whose_slip_turns_converges_to_the_closed_form_with_first_order() {
     };
     let (sigma, kt) = (-4.0, law.tangential_stiffness);
     let limit = law.cohesion - law.friction_coefficient * sigma;
-    let pressed = Local::new(sigma / law.normal_stiffness, 0.0, 0.0);
+    let pressed = Local::new(sigma / law.elastic_stiffness()[N], 0.0, 0.0);
     let (slip, turn) = (3.0 * limit / kt, 1.3 * limit / kt);
     let errors: Vec<f64> = [20, 40, 80, 160]
         .into_iter()
@@ -219,7 +222,7 @@ fn cracking_whose_slip_turns_keeps_the_tolerance() {
     let now = law.strength_after(0.0);
     let b = now.cohesion - now.tensile_strength * now.tan_friction;
     let limit = ((now.cohesion - sigma * now.tan_friction).powi(2) - b * b).sqrt();
-    let pressed = Local::new(sigma / law.normal_stiffness, 0.0, 0.0);
+    let pressed = Local::new(sigma / law.elastic_stiffness()[N], 0.0, 0.0);
     let (slip, turn) = (3.0 * limit / kt, 1.3 * limit / kt);
     for parts in [1, 3] {
         for tolerance in [1e-3, 1e-5] {

@@ -227,3 +227,38 @@ fn overflow_is_no_equilibrium() {
         );
     }
 }
+
+/// What is left of a load is measured against what was carried: nothing, where it is taken off wholly.
+#[test]
+fn a_load_may_be_taken_off_wholly() {
+    let springs = r#""normal_stiffness": 1e5, "tangential_stiffness": 2e4"#;
+    let laws = [
+        format!(r#"{{ "type": "coulomb", {springs}, "friction_coefficient": 0.5 }}"#),
+        format!(
+            r#"{{ "type": "cohesive", {springs}, "tensile_strength": 1.0, "shear_strength": 2.0, "fracture_energy_i": 0.01,
+               "fracture_energy_ii": 0.02 }}"#
+        ),
+        format!(
+            r#"{{ "type": "cracking", {springs}, "tensile_strength": 1.0, "cohesion": 2.0, "tan_friction": 0.5,
+               "fracture_energy_i": 0.01, "fracture_energy_iia": 0.02, "dilatancy_stress": 0 }}"#
+        ),
+    ];
+    for law in laws {
+        for increments in [1, 3] {
+            let step = |name: &str, pressure: f64| {
+                format!(
+                    r#"{{ "name": "{name}", "increments": {increments}, {HELD}, "load": {{ "upper.top": {{ "pressure": {pressure} }} }} }}"#
+                )
+            };
+            let steps = [step("on", 2.0), step("off", 0.0), step("on again", 3.0), step("off again", 0.0)];
+            let problem = two_squares(HEAD, &format!(r#""law": {law}"#), &steps.join(", "), "").unwrap();
+            let (states, totals) = solve(&problem);
+            for off in [2, 4] {
+                for t in &states[off * increments - 1].snapshot.tractions[0] {
+                    close(t.norm(), 0.0, 1e-12, 3.0, "what is left in the joint");
+                }
+            }
+            assert!(totals.iterations <= 2 * states.len(), "{law}: {} iterations", totals.iterations);
+        }
+    }
+}

@@ -3,6 +3,7 @@
 //! `cargo test --release confinement::` runs the tests of one file.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+mod closure;
 mod common;
 mod law_help;
 

@@ -9,6 +9,7 @@
 //! a step is contact and a given limit, which is monotone. Steps get small, so what the lag changes goes away with them, and
 //! what is stored is an equilibrium of the law itself. Frictional contact (`coulomb`) lags alike.
 
+use super::closure::Springs;
 use super::local::{Local, LocalMatrix, N, S, T};
 use super::{Response, State};
 
@@ -36,16 +37,17 @@ pub(super) fn tangential(v: Local) -> Local {
     with_normal(0.0, v)
 }
 
-/// The lagged answer from the shear part of another; `parted`: irreversible opening of a point that is open.
+/// The lagged answer from the shear part of another, with the springs of closed faces; `parted`: irreversible opening of a point that is open.
 pub(super) fn lagged(
-    [kn, kt, _]: [f64; 3],
+    (springs, kt): (Springs, f64),
     jump: Local,
     old: &State,
     own: &Response,
     was_closed: bool,
     parted: f64,
 ) -> Response {
-    let sigma = (kn * (jump[N] - old.jump_plastic[N])).min(0.0);
+    let pressed = |opened: f64| springs.answer((jump[N] - opened).min(0.0));
+    let (sigma, kn) = pressed(old.jump_plastic[N]);
     let closed = sigma < 0.0;
     let keep = |value: f64| if was_closed { value } else { 0.0 };
     let tau = if was_closed { tangential(own.traction) } else { Local::zeros() };
@@ -53,7 +55,7 @@ pub(super) fn lagged(
         if closed { (tau, 0.0) } else { (Local::zeros(), 0.5 * tau.norm_squared() / kt) };
     let dilated = keep((own.state.jump_plastic[N] - old.jump_plastic[N]).max(0.0));
     let opened = if closed { old.jump_plastic[N] + dilated } else { parted };
-    let kept_sigma = if closed { (kn * (jump[N] - opened)).min(0.0) } else { 0.0 };
+    let kept_sigma = if closed { pressed(opened).0 } else { 0.0 };
     let mut stiffness = if was_closed { own.stiffness } else { LocalMatrix::zeros() };
     stiffness.row_mut(N).fill(0.0);
     stiffness.column_mut(N).fill(0.0);

@@ -7,6 +7,7 @@
 
 mod admissible;
 mod balance;
+mod closure;
 mod cohesive;
 mod coulomb;
 mod cracking;
@@ -23,6 +24,7 @@ mod state;
 mod variable;
 
 pub use admissible::Inadmissible;
+pub use closure::Closure;
 pub use cohesive::{Cohesive, MixedMode, NamedSoftening, Softening};
 pub use coulomb::{Coulomb, LossOfCohesion};
 pub use cracking::{Cracking, Unloading, WORK};

@@ -1,6 +1,6 @@
 //! A law at a point: the questions that it answers about itself. Answers that most laws share are given here.
 
-use super::local::{Local, N};
+use super::local::Local;
 use super::{Inadmissible, Integration, LawVariable, OWN, Response, State, Strength, Unresolved};
 use crate::error::Warning;
 
@@ -88,6 +88,17 @@ pub trait PointLaw {
         false
     }
 
+    /// Normal jump, less the irreversible one, that the faces cannot reach however they are pressed [length].
+    fn narrowest(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
+
+    /// Jump of an intact point under a traction; none in a direction without stiffness [length].
+    fn jump_under(&self, traction: &Local) -> Local {
+        let k = self.elastic_stiffness();
+        Local::from_fn(|i, _| if k[i] > 0.0 { traction[i] / k[i] } else { 0.0 })
+    }
+
     /// Traction of a state at rest: its jump, its irreversible jump and its own variables.
     fn at_rest(&self, jump: Local, jump_plastic: Local, _own: &[f64; OWN]) -> Local {
         Local::from(self.elastic_stiffness()).component_mul(&(jump - jump_plastic))
@@ -154,9 +165,4 @@ pub trait PointLaw {
 pub(super) fn intact_strength(law: &dyn PointLaw) -> f64 {
     let intact = State { own: law.intact(), ..State::default() };
     law.strength(&intact).map_or(0.0, |strength| strength.cohesion.max(strength.tensile_strength))
-}
-
-/// Normal traction of faces that overlap at the start [stress].
-pub(super) fn pressed(law: &dyn PointLaw, gap: f64) -> Local {
-    Local::new((law.elastic_stiffness()[N] * gap).min(0.0), 0.0, 0.0)
 }

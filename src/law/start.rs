@@ -2,7 +2,7 @@
 
 use super::admissible::{Inadmissible, error_at, not_negative};
 use super::local::{Local, N};
-use super::point::{intact_strength, pressed};
+use super::point::intact_strength;
 use super::state::listed;
 use super::{Law, OWN, State};
 
@@ -38,13 +38,18 @@ impl Law {
             let what = "an open gap carries no initial_traction, and an overlap has its own";
             return error_at("initial_gap", what, "give one of the two");
         }
-        let mut jump_plastic = Local::new(-initial_gap, 0.0, 0.0);
-        for (i, stiffness) in self.elastic_stiffness().into_iter().enumerate() {
-            if stiffness > 0.0 {
-                jump_plastic[i] -= initial_traction[i] / stiffness; // no stiffness: the elastic law carries t₀ alone
-            }
+        if initial_gap <= self.narrowest() {
+            let what = format!(
+                "initial_gap = {initial_gap:e} is more of an overlap than the closure of {:e}",
+                -self.narrowest()
+            );
+            return error_at("initial_gap", what, "give a smaller overlap");
         }
-        let traction = initial_traction + pressed(&**self, initial_gap);
+        // without a stiffness the elastic law carries t₀ alone
+        let jump_plastic = Local::new(-initial_gap, 0.0, 0.0) - self.jump_under(&initial_traction);
+        let pressed =
+            if initial_gap < 0.0 { self.at_rest(Local::zeros(), jump_plastic, &own) } else { Local::zeros() };
+        let traction = initial_traction + pressed;
         Ok(State { traction, jump_plastic, own, ..State::default() })
     }
 
@@ -79,6 +84,10 @@ impl Law {
     pub fn state_at(&self, jump: Local, jump_plastic: Local, own: [f64; OWN]) -> Result<State, Inadmissible> {
         for variable in self.variables() {
             not_negative("initial", own[variable.place])?;
+        }
+        if jump[N] - jump_plastic[N] <= self.narrowest() {
+            let what = format!("the initial state closes the joint by {:e} or more", -self.narrowest());
+            return error_at("initial", what, "give a state that the law can carry");
         }
         let traction = self.at_rest(jump, jump_plastic, &own);
         let trial = self.elastic_stiffness();

@@ -68,6 +68,14 @@ pub enum Unresolved {
         /// The jump that was asked for.
         jump: Local,
     },
+    /// The faces are nearer than their closure lets them be.
+    #[error("the jump ({}) closes the joint by its maximum of {:e} or more", listed(jump), -narrowest)]
+    Closed {
+        /// The jump that was asked for.
+        jump: Local,
+        /// Least normal jump less the irreversible one.
+        narrowest: f64,
+    },
     /// The traction snaps at a point of the way: the stiffnesses are too low for the energies (local snap-back).
     #[error(
         "the traction snaps near jump ({}): the interface stiffness is too low for its fracture energies",

@@ -40,6 +40,8 @@ pub struct Condensed<'a> {
     targets: [Vec<f64>; 2],
     functionals: Vec<Functional>,
     jacobian: Jacobian,
+    /// Force against which residuals count at least.
+    reference: f64,
 }
 
 impl<'a> Condensed<'a> {
@@ -68,7 +70,17 @@ impl<'a> Condensed<'a> {
         let flexibility = base.flexibility(active);
         let active = active.to_vec();
         let (targets, functionals) = ([Vec::new(), Vec::new()], Vec::new());
-        Condensed { base, active, base_stiffness, first, flexibility, targets, functionals, jacobian }
+        Condensed {
+            base,
+            active,
+            base_stiffness,
+            first,
+            flexibility,
+            targets,
+            functionals,
+            jacobian,
+            reference: 0.0,
+        }
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -135,6 +147,10 @@ impl Form for Condensed<'_> {
         residual
     }
 
+    fn compare_with(&mut self, force: f64) {
+        self.reference = force;
+    }
+
     /// Forces of the base stiffness for the misfit, over what the interfaces carry. If they carry nothing a small part of
     /// what the base stiffness alone would carry stands for it.
     fn error(&self, residual: &[f64], _: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
@@ -145,7 +161,7 @@ impl Form for Condensed<'_> {
             let unlimited = squares(&self.base_stiffness[k].multiply(self.part(k, target)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
-        if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
+        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
     }
 
     /// Every term of the residual to the precision of numbers. Where nothing holds the interface, jumps run away: those are no

@@ -47,6 +47,8 @@ pub struct FloatingSubdomains<'a> {
     blocks: Vec<SubdomainBlock>,
     unknowns: usize,
     lu: SparseLu,
+    /// Force against which residuals count at least.
+    reference: f64,
 }
 
 impl<'a> FloatingSubdomains<'a> {
@@ -85,6 +87,7 @@ impl<'a> FloatingSubdomains<'a> {
             blocks,
             unknowns,
             lu: SparseLu::default(),
+            reference: 0.0,
         })
     }
 
@@ -205,6 +208,10 @@ impl Form for FloatingSubdomains<'_> {
         residual
     }
 
+    fn compare_with(&mut self, force: f64) {
+        self.reference = force;
+    }
+
     /// Forces of the base stiffness for the misfit of jumps, and the misfit of the bodies' balance, over what interfaces and loads carry.
     /// A rigid motion of all makes no difference: jumps without interface forces count with the rigid motions found.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
@@ -223,7 +230,7 @@ impl Form for FloatingSubdomains<'_> {
             let unlimited = squares(&self.base_stiffness[k].multiply(self.part(k, &free)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
-        if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
+        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
     }
 
     /// Every term of the residual to the precision of numbers.

@@ -52,6 +52,8 @@ pub trait Form {
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
     /// R(x) for the forces q of every active interface on its jump coefficients.
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
+    /// Sets the force against which residuals count at least: where interfaces end without any, there is no other.
+    fn compare_with(&mut self, force: f64);
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
     /// Residual that rounding alone may leave, measured like `error`.

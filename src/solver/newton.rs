@@ -54,18 +54,20 @@ impl Newton {
         target: &[f64],
         settings: NewtonSettings,
     ) -> Result<Iterate<L::Memory>, Unconverged> {
-        let mut best: Option<(&Vec<f64>, Evaluation<L::Memory>)> = None;
+        let (mut best, mut unanswered) = (None::<(&Vec<f64>, Evaluation<L::Memory>)>, None);
         for start in starts {
             match evaluate(form, laws, start, target) {
                 Ok(there) if best.as_ref().is_none_or(|(_, kept)| there.error < kept.error) => {
                     best = Some((start, there));
                 }
-                Err(why) if best.is_none() => return Err(why),
-                _ => {}
+                Ok(_) => {}
+                Err(why) => unanswered = Some(why),
             }
         }
         let Some((start, now)) = best else {
-            return Err(Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 });
+            let none =
+                || Unconverged { reason: "there is no start".into(), worst: Vec::new(), iterations: 0 };
+            return Err(unanswered.unwrap_or_else(none));
         };
         let start = PathPoint { x: start.clone(), load_factor: 0.0 };
         self.search(form, laws, (start, now), &Aim::Load(target), settings).map(|(iterate, _)| iterate)

@@ -27,6 +27,8 @@ pub struct Primal<'a> {
     constrained: Vec<bool>,
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
+    /// Force against which residuals count at least.
+    reference: f64,
     lu: SparseLu,
 }
 
@@ -52,6 +54,7 @@ impl<'a> Primal<'a> {
             constrained,
             scale,
             lu: SparseLu::default(),
+            reference: 0.0,
         }
     }
 
@@ -96,6 +99,10 @@ impl Form for Primal<'_> {
         (0..x.len()).map(|i| value(i) - target[i]).collect()
     }
 
+    fn compare_with(&mut self, force: f64) {
+        self.reference = force;
+    }
+
     /// Over what the bodies, the interfaces and the loads carry; prescribed displacements are no forces.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64 {
         let squares = |v: &mut dyn Iterator<Item = f64>| v.map(|v| v * v).sum::<f64>();
@@ -112,7 +119,7 @@ impl Form for Primal<'_> {
                     .filter(|(_, constrained)| !**constrained)
                     .map(|(f, _)| *f),
             );
-        if misfit == 0.0 { 0.0 } else { (misfit / scale).sqrt() }
+        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
     }
 
     /// Jumps are differences of displacements: their rounding is that of the displacements, times the stiffness.

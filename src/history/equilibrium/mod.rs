@@ -30,6 +30,9 @@ pub(in crate::history) enum Failure {
     Unusable(f64),
 }
 
+/// Part of the most that was carried against which a residual counts where nothing is.
+const AT_REST: f64 = 1e-3;
+
 /// Points that reach their surface within this fraction of a part do so at once.
 const ON: f64 = 1e-6;
 
@@ -51,6 +54,8 @@ pub(in crate::history) struct Search {
     first: bool,
     /// Load factor of the last accepted state in its step.
     load_factor: f64,
+    /// The largest norm that the forces have had [force].
+    most: f64,
 }
 
 impl Search {
@@ -63,13 +68,25 @@ impl Search {
         self.unknowns.iter().zip(&self.before).map(along).collect()
     }
 
+    /// Force against which a residual counts at least: what was carried at the last accepted increment, and a small part of the
+    /// most that ever was. Where the load is taken off there is no other.
+    fn reference(&self) -> f64 {
+        norm(&self.forces).max(AT_REST * self.most)
+    }
+
     /// Takes unknowns, forces and viscous tractions of what is accepted; those before come back in their places.
     fn accept(&mut self, (unknowns, forces, viscous): &mut (Vec<f64>, Vec<Vec<f64>>, Vec<Vec<f64>>)) {
         std::mem::swap(&mut self.forces, forces);
+        self.most = self.most.max(norm(&self.forces));
         std::mem::swap(&mut self.viscous, viscous);
         std::mem::swap(&mut self.before, &mut self.unknowns);
         std::mem::swap(&mut self.unknowns, unknowns);
     }
+}
+
+/// The norm of the forces of all interfaces.
+fn norm(forces: &[Vec<f64>]) -> f64 {
+    forces.iter().flatten().map(|force| force * force).sum::<f64>().sqrt()
 }
 
 /// Starting points of the search for an equilibrium.

@@ -1,7 +1,9 @@
 //! Faces as they are at a state: what is left of cohesion and dilatancy.
 
 use super::jet::Jet;
+use super::normal::{mean, traction};
 use super::parameters::{Coulomb, LOST, LossOfCohesion, SLIP_TOTAL};
+use super::slide::Slide;
 use crate::law::OWN;
 
 /// Faces with the cohesion and the dilatancy that they still have.
@@ -16,9 +18,9 @@ pub(super) struct Faces {
 
 /// The drop of the traction where cohesion is lost at a jump.
 pub(super) struct Drop {
-    pub slip: f64,
+    pub slip: Jet,
     /// Irreversible opening that goes with it.
-    pub opening: f64,
+    pub opening: Jet,
     pub dissipation: Jet,
     pub released: f64,
     pub after: Faces,
@@ -49,28 +51,39 @@ impl Faces {
         }
     }
 
-    /// The drop at a normal traction where slip begins; none if there is nothing to lose.
+    /// The drop at a normal jump where slip begins; none if there is nothing to lose. What is above friction is released.
     ///
     /// ```text
-    /// K_T λ + μ K_N tanψ min(λ, left) = c        released ∫ (c − K_T λ − μ K_N tanψ λ) dλ: what is above friction
+    /// K_T λ + μ (σ₀ − σ(λ)) = c,  σ(λ) = f(y₀ − tanψ min(λ, left))        released ∫ (c − K_T λ − μ (σ₀ − σ(λ))) dλ
     /// ```
-    pub(super) fn drop(&self, sigma: Jet) -> Option<Drop> {
-        let Coulomb { normal_stiffness: kn, tangential_stiffness: kt, friction_coefficient: mu, .. } =
-            self.law;
-        let (c, tan_psi) = (self.law.cohesion, self.law.dilatancy);
+    pub(super) fn drop(&self, start: Jet) -> Option<Drop> {
+        let Coulomb { tangential_stiffness: kt, friction_coefficient: mu, dilatancy: psi, .. } = self.law;
+        let c = self.law.cohesion;
         if !self.loses || c == 0.0 {
             return None;
         }
-        let whole = kt + mu * kn * tan_psi;
-        let dilated = (c / whole).min(self.left.value);
-        let above = c - whole * dilated; // of friction, where dilatancy ends
-        let slip = dilated + above / kt;
-        let end = sigma - kn * tan_psi * dilated;
-        let friction = (-0.5 * (mu - tan_psi) * dilated) * (sigma + end) + (-mu * (slip - dilated)) * end;
+        let springs = self.law.normal();
+        let sigma = traction(&springs, start);
+        // the faces as they were pushed, without their cohesion
+        let pushed = [start, (1.0 / kt) * (Jet::from(c) - mu * sigma)];
+        let after = self.apart();
+        let whole = Slide { law: &after.law, direction: 1.0 }.slipped(0.0.into(), &pushed).slip;
+        let dilated = whole.min(self.left);
+        let end = start - psi * dilated;
+        let (worked, sigma_end) = (dilated * mean(&springs, end, start), traction(&springs, end));
+        let above = Jet::from(c) - kt * dilated - mu * (sigma - sigma_end); // of friction, where dilatancy ends
+        let above = if whole.value <= self.left.value { 0.0.into() } else { above };
+        let rest = (1.0 / kt) * above;
         let left = self.left - dilated;
-        let after = Faces { left, ..self.apart() };
-        let after = if left.value <= 0.0 { after.worn() } else { after };
-        let released = 0.5 * (c + above) * dilated + 0.5 * above * (slip - dilated);
-        Some(Drop { slip, opening: tan_psi * dilated, dissipation: friction, released, after })
+        let after = Faces { left, ..after };
+        Some(Drop {
+            slip: dilated + rest,
+            opening: psi * dilated,
+            dissipation: (psi - mu) * worked - mu * rest * sigma_end,
+            released: (dilated * (Jet::from(c) - (0.5 * kt) * dilated) - mu * (dilated * sigma - worked)
+                + 0.5 * rest * above)
+                .value,
+            after: if left.value <= 0.0 { after.worn() } else { after },
+        })
     }
 }

@@ -19,6 +19,16 @@ impl Jet {
         [Jet { value: jump.x, gradient: Vector2::x() }, Jet { value: jump.y, gradient: Vector2::y() }]
     }
 
+    /// A function of it, by its value and its slope.
+    pub(super) fn map(self, value: f64, slope: f64) -> Jet {
+        Jet { value, gradient: self.gradient * slope }
+    }
+
+    pub(super) fn sqrt(self) -> Jet {
+        let root = self.value.sqrt();
+        self.map(root, 0.5 / root)
+    }
+
     pub(super) fn min(self, other: Jet) -> Jet {
         if other.value < self.value { other } else { self }
     }

@@ -2,13 +2,13 @@
 
 use super::super::lagged::{lagged, tangential};
 use super::super::local::{Local, N, across, diagonal, direction, shear};
-use super::super::{PointLaw, Response, State};
+use super::super::{Response, State};
 use super::{Coulomb, OPEN};
 
 /// Friction lags by a step.
 pub(super) fn answer(law: &Coulomb, jump: Local, old: &State) -> Response {
     let own = at_limit(law, jump, old);
-    lagged(law.elastic_stiffness(), jump, old, &own, old.status != OPEN, old.jump_plastic.x)
+    lagged((law.normal(), law.tangential_stiffness), jump, old, &own, old.status != OPEN, old.jump_plastic.x)
 }
 
 /// The shear that the normal traction of the old state allows.

@@ -15,13 +15,17 @@
 //! In space slip goes along the shear that would be there had nothing slipped: a way is followed in the plane of the normal
 //! and that direction. This is exact where the shear keeps its direction, and of first order in its turn where it does not.
 //!
+//! With a closure σ is a hyperbola of r_n − r_n^p (`law::closure`), and slip may stop within a way (`slide`).
+//!
 //! An initial gap g is r_n^p = −g at the start: the jump at which the faces meet. Not in the paper, which only names
 //! friction laws (§3.2); classical otherwise.
 
 mod faces;
 mod jet;
 mod lagged;
+mod normal;
 mod parameters;
+mod slide;
 mod turned;
 mod way;
 
@@ -30,6 +34,8 @@ pub use parameters::{Coulomb, LossOfCohesion};
 use nalgebra::Vector2;
 
 use super::admissible::{Inadmissible, error_at, not_negative, positive};
+use super::closure::Springs;
+use super::elastic::springs_under;
 use super::local::{Local, N, shear};
 use super::{Integration, LawVariable, OWN, PointLaw, Response, State, Strength, Unresolved};
 
@@ -61,7 +67,7 @@ impl PointLaw for Coulomb {
 
     /// Stiffnesses above zero; friction, cohesion and dilatancy zero or more; dilatancy at most the friction.
     fn check(&self) -> Result<(), Inadmissible> {
-        positive("normal_stiffness", self.normal_stiffness)?;
+        Springs::check(self.normal_stiffness, self.closure, positive)?;
         positive("tangential_stiffness", self.tangential_stiffness)?;
         not_negative("friction_coefficient", self.friction_coefficient)?;
         not_negative("cohesion", self.cohesion)?;
@@ -80,7 +86,32 @@ impl PointLaw for Coulomb {
     }
 
     fn elastic_stiffness(&self) -> [f64; 3] {
-        [self.normal_stiffness, self.tangential_stiffness, self.tangential_stiffness]
+        [self.normal().initial(), self.tangential_stiffness, self.tangential_stiffness]
+    }
+
+    fn narrowest(&self) -> f64 {
+        self.normal().narrowest()
+    }
+
+    fn jump_under(&self, traction: &Local) -> Local {
+        springs_under(&self.normal(), self.tangential_stiffness, traction)
+    }
+
+    fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
+        let kt = self.tangential_stiffness;
+        let (sigma, slope) = match self.closure {
+            Some(_) => self.normal().answer(jump[N] - old.jump_plastic[N]),
+            None => {
+                let kn = self.normal().initial();
+                (old.traction[N] + kn * (jump[N] - old.jump[N]), kn)
+            }
+        };
+        let sheared = old.traction + (jump - old.jump) * kt;
+        (Local::new(sigma, sheared.y, sheared.z), [slope, kt, kt])
+    }
+
+    fn stored(&self, state: &State) -> f64 {
+        self.normal().stored(state.traction[N]) + self.shear_energy(shear(&state.traction))
     }
 
     fn takes_gap(&self) -> bool {
@@ -104,7 +135,10 @@ impl PointLaw for Coulomb {
         let elastic = jump - jump_plastic;
         match elastic[N] > 0.0 {
             true => Local::zeros(),
-            false => Local::from(self.elastic_stiffness()).component_mul(&elastic),
+            false => {
+                let sheared = elastic * self.tangential_stiffness;
+                Local::new(self.normal().answer(elastic[N]).0, sheared.y, sheared.z)
+            }
         }
     }
 
@@ -113,7 +147,8 @@ impl PointLaw for Coulomb {
         let turned = Turned::new(jump, old);
         let faces = Faces::of(self, &old.own);
         let end =
-            way::follow(&faces, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump));
+            way::follow(&faces, turned.plane(old.jump), turned.plane(old.jump_plastic), turned.plane(jump))
+                .ok_or(Unresolved::Closed { jump, narrowest: self.narrowest() })?;
         let mut own = old.own;
         if self.dilatancy_end.is_some() {
             own[SLIP_TOTAL] += end.slip;
@@ -142,15 +177,8 @@ impl PointLaw for Coulomb {
         _: bool,
     ) -> Result<Response, Unresolved> {
         match self.dilatancy == 0.0 && self.cohesion_lost == LossOfCohesion::Never {
-            true => Ok(lagged::answer(self, jump, old)),
-            false => self.respond(jump, old, integration),
+            true if self.normal().reach(jump[N] - old.jump_plastic[N]) => Ok(lagged::answer(self, jump, old)),
+            _ => self.respond(jump, old, integration),
         }
-    }
-}
-
-impl Coulomb {
-    /// Elastic energy of shear, τ²/(2 K_T) [stress × length].
-    fn shear_energy(&self, tau: f64) -> f64 {
-        0.5 * tau * tau / self.tangential_stiffness
     }
 }

@@ -4,13 +4,18 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::law::LawVariable;
+use crate::law::closure::{Closure, Springs};
 
 /// Parameters of the Coulomb law.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coulomb {
-    /// Normal (penalty) stiffness of the closed interface K_N [stress / length].
-    pub normal_stiffness: f64,
+    /// Normal (penalty) stiffness of the closed interface K_N [stress / length]; or `closure`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_stiffness: Option<f64>,
+    /// Hyperbolic closure in place of `normal_stiffness`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closure: Option<Closure>,
     /// Tangential (penalty) stiffness of the sticking interface K_T [stress / length].
     pub tangential_stiffness: f64,
     /// Friction coefficient μ [-]; 0 is contact without friction.
@@ -27,6 +32,18 @@ pub struct Coulomb {
     /// Loss of cohesion: `never` (default) or `at_slip`.
     #[serde(default)]
     pub cohesion_lost: LossOfCohesion,
+}
+
+impl Coulomb {
+    /// Springs of the faces where they touch.
+    pub(super) fn normal(&self) -> Springs {
+        Springs::of(self.normal_stiffness, self.closure)
+    }
+
+    /// Elastic energy of shear, τ²/(2 K_T) [stress × length].
+    pub(super) fn shear_energy(&self, tau: f64) -> f64 {
+        0.5 * tau * tau / self.tangential_stiffness
+    }
 }
 
 /// Loss of cohesion.

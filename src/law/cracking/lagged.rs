@@ -1,5 +1,6 @@
 //! The answer of a viscous step (`law::lagged`).
 
+use super::super::closure::Springs;
 use super::super::lagged::{lagged, parted};
 use super::super::local::{Local, N, S, T};
 use super::super::{Integration, PointLaw, Response, State, Unresolved};
@@ -31,7 +32,8 @@ pub(super) fn answer(
             Unloading::Closing => old.jump_plastic.x, // the gap is remembered
             Unloading::Plastic => old.jump_plastic.x.max(jump.x),
         };
-        let answer = lagged(law.elastic_stiffness(), jump, old, &own, old.traction.x < 0.0, parted);
+        let springs = (Springs::Linear(law.normal_stiffness), law.tangential_stiffness);
+        let answer = lagged(springs, jump, old, &own, old.traction.x < 0.0, parted);
         return Ok(law.with_gap(answer));
     }
     law.respond(jump, old, integration)
