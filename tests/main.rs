@@ -44,6 +44,7 @@ mod law_invariants;
 mod law_path;
 mod law_reference;
 mod law_space;
+mod law_steps;
 mod law_tangent;
 mod loads;
 mod memory;

@@ -27,7 +27,8 @@ fn layers(n: [usize; 2], interfaces: &str, opening: &str, more: &str) -> midplan
           "materials": {{ "rock": {{ "young": 1e4, "poisson": 0.2 }} }},
           "interfaces": {{ {interfaces} }},
           "steps": [ {{ "name": "pull", "increments": 10, "fix": {{ "lower.bottom": ["y"], "lower.left": ["x"], "upper.left": ["x"] }},
-            "displace": {{ "upper.top": {{ "y": {opening} }} }} {more} }} ] }}"#
+            "displace": {{ "upper.top": {{ "y": {opening} }} }} {more} }} ],
+          "output": {{ "history": {{ "viscous": "energy.viscous" }} }} }}"#
     );
     bind(&text, meshes)
 }
@@ -188,9 +189,15 @@ fn a_viscosity_needs_a_load_factor_that_grows() {
         let (states, _) = solve(&problem);
         let last = states.last().unwrap();
         assert!(last.energy_balance().abs() < 5e-3, "{}", last.energy_balance());
-        last.dissipated
+        (last.dissipated, last.probes(&problem)[0])
     };
-    let exact = spent(0.0);
-    let late = [4e-3, 2e-3, 1e-3].map(|eta| (spent(eta) - exact).abs() / exact);
+    let (exact, none) = spent(0.0);
+    let all = [4e-3, 2e-3, 1e-3].map(spent);
+    let late = all.map(|(spent, _)| (spent - exact).abs() / exact);
     assert!(late[0] > 1.4 * late[1] && late[1] > 1.4 * late[2] && late[2] < 0.05, "{late:?}");
+    // what the viscosity takes is told, and goes with it
+    let taken = all.map(|(_, viscous)| viscous / exact);
+    assert_eq!(none, 0.0);
+    assert!(taken[0] > 1.4 * taken[1] && taken[1] > 1.4 * taken[2], "{taken:?}");
+    assert!(taken[0] < 0.5 && taken[2] > 1e-3, "{taken:?}");
 }

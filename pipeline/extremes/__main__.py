@@ -19,6 +19,7 @@ import rows_geometry  # noqa: F401
 import rows_gmsh  # noqa: F401
 import rows_junction  # noqa: F401
 import rows_law  # noqa: F401
+import rows_laws  # noqa: F401
 import rows_material  # noqa: F401
 import rows_mesh_file  # noqa: F401
 import rows_run  # noqa: F401
@@ -40,7 +41,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="shorter sweeps, for every change")
     parser.add_argument("rows", nargs="*", help="only these, such as B9")
     arguments = parser.parse_intermixed_args()
-    missing = [f"B{i}" for i in range(1, 47) if f"B{i}" not in [entry[0] for entry in ROWS]]
+    missing = [f"B{i}" for i in range(1, 51) if f"B{i}" not in [entry[0] for entry in ROWS]]
     if missing:
         sys.exit(f"there is no row {', '.join(missing)}")
     chosen = [entry for entry in ROWS if not arguments.rows or entry[0] in arguments.rows]

@@ -33,6 +33,30 @@ def cracking(**more):
     return {**law, **more}
 
 
+def cohesive(**more):
+    """A cohesive zone of the strength and the energy of `cracking` in tension."""
+    law = {
+        "type": "cohesive",
+        "normal_stiffness": 1e7,
+        "tangential_stiffness": 1e7,
+        "tensile_strength": 3.0,
+        "shear_strength": 5.0,
+        "fracture_energy_i": 2e-4,
+        "fracture_energy_ii": 6e-4,
+    }
+    return {**law, **more}
+
+
+def closing(kind, stiffness, maximum, **more):
+    """An elastic or a Coulomb law with a closure."""
+    law = {
+        "type": kind,
+        "closure": {"initial_stiffness": stiffness, "maximum": maximum},
+        "tangential_stiffness": stiffness,
+    }
+    return {**law, **({"friction_coefficient": 0.5} if kind == "coulomb" else {}), **more}
+
+
 def scene(materials, joints, steps, plane="strain", **more):
     """Bodies by name with (E, ν), joints by name with (side_a, side_b, law) and more keys, steps."""
     interfaces = {}

@@ -129,9 +129,13 @@ impl Show {
             .map(|(stage, seconds)| format!("{stage} {seconds:.2}"))
             .collect();
         if let Some(totals) = self.totals.as_ref().filter(|totals| totals.iterations > 0) {
-            let Totals { increments, parts, iterations, energy_balance, .. } = totals;
+            let Totals { increments, parts, iterations, energy_balance, viscous, .. } = totals;
+            let viscous = match *viscous > 0.0 {
+                true => format!("; viscosity took {viscous:.3e} of the work"),
+                false => String::new(),
+            };
             self.line(&format!(
-                "solved   {increments} increments in {parts} parts, {iterations} iterations; energies balance to {energy_balance:.1e}"
+                "solved   {increments} increments in {parts} parts, {iterations} iterations; energies balance to {energy_balance:.1e}{viscous}"
             ));
         }
         self.line(&format!("time     {:.2} s: {}", done.clock.total(), stages.join(", ")));

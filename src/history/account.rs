@@ -36,6 +36,7 @@ pub(super) fn account(analysis: &mut Analysis, place: &mut Increment) -> Result<
         analysis.totals.balance_at = analysis.totals.increments;
     }
     analysis.totals.released = analysis.state.released;
+    analysis.totals.viscous = analysis.state.viscous_work(analysis.problem);
     analysis.totals.residual = analysis.totals.residual.max(analysis.state.residual);
     analysis.totals.energy_balance =
         analysis.totals.energy_balance.max(analysis.state.energy_balance().abs());

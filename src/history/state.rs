@@ -16,7 +16,7 @@ use super::energy::{across, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::continuum::{Stresses, recover};
-use crate::law::{Local, local};
+use crate::law::{self, Local, local};
 use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
 use crate::solver::NodalSolution;
@@ -198,6 +198,19 @@ impl ModelState {
         self.largest.max(self.work.abs()).max(self.dissipated)
     }
 
+    /// Work of the viscosity of laws so far, part of what is dissipated [force × length].
+    pub(super) fn viscous_work(&self, problem: &Problem) -> f64 {
+        let interfaces = problem.model.interfaces.iter().zip(&problem.interfaces).zip(&self.snapshot.states);
+        let of = |((interface, bound), states): ((&InterfaceOperator, &BoundInterface), &Vec<law::State>)| {
+            if !bound.laws.kind().is_viscous() {
+                return 0.0;
+            }
+            let points = interface.coupling.points.iter().zip(states).enumerate();
+            points.map(|(p, (point, state))| point.weight * bound.laws.at(p).viscous_work(state)).sum::<f64>()
+        };
+        problem.model.thickness * interfaces.map(of).sum::<f64>()
+    }
+
     /// work − stored − dissipated − released over the largest of them so far.
     pub fn energy_balance(&self) -> f64 {
         let left = self.work - self.stored - self.dissipated - self.released;
@@ -215,6 +228,7 @@ impl ModelState {
             stored: self.stored,
             dissipated: self.dissipated,
             released: self.released,
+            viscous: self.viscous_work(problem),
             work: self.work,
         };
         let mut columns =

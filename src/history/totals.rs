@@ -35,6 +35,8 @@ pub struct Totals {
     pub snaps: Vec<Snap>,
     /// Energy released by snaps [force × length].
     pub released: f64,
+    /// Work of the viscosity of laws [force × length].
+    pub viscous: f64,
     /// Largest |work − stored − dissipated − released|, relative.
     pub energy_balance: f64,
     /// Number of the increment with that balance.

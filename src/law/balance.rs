@@ -61,7 +61,9 @@ fn one(
     let stiffness = law.elastic_stiffness()[i];
     let scale = target.abs().max(old.traction[i].abs()).max(intact_strength(&**law));
     let mut x = old.jump[i];
-    let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
+    // no traction reaches the jump to which faces cannot close
+    let least = if i == N { old.jump_plastic[N] + law.narrowest() } else { f64::NEG_INFINITY };
+    let (mut lo, mut hi) = (least, f64::INFINITY);
     let mut reach = scale / stiffness;
     let mut best = (f64::INFINITY, *old);
     for _ in 0..ITERATIONS {
@@ -117,6 +119,9 @@ fn both(
     let k = Local::from(law.elastic_stiffness());
     let elastic = target - old.traction;
     let mut jump = old.jump + elastic.component_div(&k);
+    if jump[N] <= old.jump_plastic[N] + law.narrowest() {
+        jump[N] = old.jump_plastic[N] + law.jump_under(&target)[N];
+    }
     let mut response = respond(jump)?;
     for _ in 0..ITERATIONS {
         let over = response.traction - target;

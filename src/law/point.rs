@@ -49,7 +49,12 @@ pub trait PointLaw {
         false
     }
 
-    /// The same with friction, and dilatancy alike, of the step before where its slope has no bound, or with `all` where it is
+    /// Work of a point's viscosity so far, part of what it has dissipated [stress × length].
+    fn viscous_work(&self, _state: &State) -> f64 {
+        0.0
+    }
+
+    /// The answer with friction, and dilatancy alike, of the step before where its slope has no bound, or with `all` where it is
     /// steep; the law's own elsewhere.
     fn respond_lagged(
         &self,

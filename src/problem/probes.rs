@@ -34,6 +34,8 @@ pub enum BoundProbe {
     EnergyDissipated,
     /// Released energy.
     EnergyReleased,
+    /// Work of the viscosity of laws.
+    EnergyViscous,
     /// Work of loads and prescribed displacements.
     WorkExternal,
 }
@@ -57,6 +59,8 @@ pub struct ProbeInput<'a> {
     pub dissipated: f64,
     /// Released energy.
     pub released: f64,
+    /// Work of the viscosity of laws.
+    pub viscous: f64,
     /// External work.
     pub work: f64,
 }
@@ -99,6 +103,7 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
                 Probe::EnergyStored => BoundProbe::EnergyStored,
                 Probe::EnergyDissipated => BoundProbe::EnergyDissipated,
                 Probe::EnergyReleased => BoundProbe::EnergyReleased,
+                Probe::EnergyViscous => BoundProbe::EnergyViscous,
                 Probe::WorkExternal => BoundProbe::WorkExternal,
             },
         ));
@@ -143,6 +148,7 @@ impl BoundProbe {
             BoundProbe::EnergyStored => input.stored,
             BoundProbe::EnergyDissipated => input.dissipated,
             BoundProbe::EnergyReleased => input.released,
+            BoundProbe::EnergyViscous => input.viscous,
             BoundProbe::WorkExternal => input.work,
         }
     }

@@ -74,6 +74,8 @@ struct SolutionSummary {
     snaps: Vec<Snap>,
     /// Energy released by them [force × length].
     released: f64,
+    /// Work of the viscosity of laws, part of what is dissipated [force × length].
+    viscous: f64,
     /// "joined", "in parts", "condensed", "blocks" or "plain".
     strategy: &'static str,
     /// Multiplications and additions of both forms, estimated; none where there is no choice.
@@ -183,6 +185,7 @@ pub(super) fn summary<'a>(
             turns: totals.turns.clone(),
             snaps: totals.snaps.clone(),
             released: totals.released,
+            viscous: totals.viscous,
             factorisations: totals.factorisations,
             strategy: totals.method.name(),
             operations: totals.operations,

@@ -2,7 +2,7 @@
 //!
 //! `interface.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
 //! group, `interface.resultant_t` the force across an interface, `energy.stored`, `energy.dissipated`,
-//! `energy.released`, `work.external`.
+//! `energy.released`, `energy.viscous`, `work.external`.
 
 use super::{Direction, JOINED, Scene};
 use crate::error::name_help;
@@ -40,6 +40,8 @@ pub enum Probe {
     EnergyDissipated,
     /// Energy released by snaps so far [force × length].
     EnergyReleased,
+    /// Work of the viscosity of laws so far, part of what is dissipated [force × length].
+    EnergyViscous,
     /// Work done by loads and prescribed displacements so far [force × length].
     WorkExternal,
 }
@@ -76,6 +78,7 @@ impl Probe {
             "energy.stored" => return Ok(Probe::EnergyStored),
             "energy.dissipated" => return Ok(Probe::EnergyDissipated),
             "energy.released" => return Ok(Probe::EnergyReleased),
+            "energy.viscous" => return Ok(Probe::EnergyViscous),
             "work.external" => return Ok(Probe::WorkExternal),
             _ => {}
         }

@@ -67,7 +67,7 @@ impl Cohesive {
             }
         };
         Strengths {
-            per_square: by_tension + share * (by_shear - by_tension),
+            per_square: (1.0 - share) * by_tension + share * by_shear,
             per_square_slope: by_shear - by_tension,
             energy,
             energy_slope,

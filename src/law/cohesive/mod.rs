@@ -191,6 +191,10 @@ impl PointLaw for Cohesive {
         self.viscosity > 0.0
     }
 
+    fn viscous_work(&self, state: &State) -> f64 {
+        if self.viscosity > 0.0 { state.own[VISCOUS] } else { 0.0 }
+    }
+
     fn held(&self, jump: Local, old: &State) -> (Local, [f64; 3]) {
         let [from, to] = Cohesive::ends(jump, old);
         let damage = old.own[DAMAGE];
