@@ -10,7 +10,7 @@
 //! ```
 
 use crate::common::*;
-use midplane::law::{Law, Local, PointLaw};
+use midplane::law::{Law, Local};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 

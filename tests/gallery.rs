@@ -14,7 +14,9 @@ fn history_with(scene: &str, set: &[&str]) -> Vec<(String, f64)> {
     let geo = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo").join(scene);
     let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
     command.arg("run").arg(geo).arg("-o").arg(folder.path().join("out"));
-    set.iter().for_each(|pair| drop(command.args(["--set", pair])));
+    for pair in set {
+        command.args(["--set", pair]);
+    }
     let output = command.output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();

@@ -228,7 +228,7 @@ fn overflow_is_no_equilibrium() {
     }
 }
 
-/// What is left of a load is measured against what was carried: nothing, where it is taken off wholly.
+/// Residuals count against what was carried before where nothing is carried any more.
 #[test]
 fn a_load_may_be_taken_off_wholly() {
     let springs = r#""normal_stiffness": 1e5, "tangential_stiffness": 2e4"#;

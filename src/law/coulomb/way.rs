@@ -215,7 +215,7 @@ impl ClosedWay {
     }
 }
 
-/// What a part of a way has done.
+/// Slip, dissipation and release of a part of a way.
 struct Done {
     slip: f64,
     dissipation: Jet,
