@@ -22,6 +22,8 @@ pub struct Elasticity {
     pub out_of_plane: f64,
     /// Young's modulus [stress].
     pub young: f64,
+    /// σ_zz = 0.
+    pub is_plane_stress: bool,
 }
 
 impl Elasticity {
@@ -29,14 +31,15 @@ impl Elasticity {
     pub fn new(young: f64, poisson: f64, plane: PlaneState) -> Elasticity {
         let (e, nu) = (young, poisson);
         let c33 = e / (2.0 * (1.0 + nu));
+        let is_plane_stress = plane == PlaneState::Stress;
         match plane {
             PlaneState::Strain => {
                 let c = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
-                Elasticity { c11: c * (1.0 - nu), c12: c * nu, c33, out_of_plane: nu, young }
+                Elasticity { c11: c * (1.0 - nu), c12: c * nu, c33, out_of_plane: nu, young, is_plane_stress }
             }
             PlaneState::Stress => {
                 let c = e / ((1.0 - nu) * (1.0 + nu));
-                Elasticity { c11: c, c12: c * nu, c33, out_of_plane: 0.0, young }
+                Elasticity { c11: c, c12: c * nu, c33, out_of_plane: 0.0, young, is_plane_stress }
             }
         }
     }

@@ -6,8 +6,8 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::Elasticity;
 use super::element::{cell_coordinates, gradients};
+use super::{Elasticity, PointField};
 use crate::mesh::Mesh;
 use crate::shape::Shape;
 
@@ -20,17 +20,29 @@ pub struct Stresses {
     pub nodes: Vec<[f64; 4]>,
     /// Elastic energy [force × length].
     pub energy: f64,
+    /// Difference of temperature at every node, where the scene gives some.
+    pub temperatures: Option<Vec<f64>>,
+    /// Mean of the strains of its own (xx, yy, zz, xy) over every cell, where the body has some [-].
+    pub strains: Option<Vec<[f64; 4]>>,
 }
 
-/// Recovers the stresses from the displacements (x, y of every node) of one body.
-pub fn recover(mesh: &Mesh, u: &[f64], elasticity: &Elasticity, thickness: f64) -> Stresses {
-    if u.iter().all(|&u| u == 0.0) {
+/// Recovers the stresses from the displacements (x, y of every node) of one body, and from the stress that it has beyond
+/// those of its strains.
+pub fn recover(
+    mesh: &Mesh,
+    u: &[f64],
+    elasticity: &Elasticity,
+    thickness: f64,
+    beyond: Option<&PointField>,
+) -> Stresses {
+    if beyond.is_none() && u.iter().all(|&u| u == 0.0) {
         let at_rest = |n: usize| vec![[0.0; 4]; n];
-        return Stresses { cells: at_rest(mesh.cells.len()), nodes: at_rest(mesh.points.len()), energy: 0.0 };
+        let (cells, nodes) = (at_rest(mesh.cells.len()), at_rest(mesh.points.len()));
+        return Stresses { cells, nodes, ..Stresses::default() };
     }
     let per_cell: Vec<(CellStress, f64)> = (0..mesh.cells.len())
         .into_par_iter()
-        .map(|c| cell_stress(mesh, c, u, elasticity, thickness))
+        .map(|c| cell_stress(mesh, c, u, elasticity, thickness, beyond))
         .collect();
     let mut nodes = vec![[0.0; 4]; mesh.points.len()];
     let mut areas = vec![0.0; mesh.points.len()];
@@ -39,31 +51,36 @@ pub fn recover(mesh: &Mesh, u: &[f64], elasticity: &Elasticity, thickness: f64) 
         energy += cell_energy;
         for (i, &node) in mesh.cells.nodes(c).iter().enumerate() {
             let at_node = stress.at_node(mesh.cells.shapes[c], i);
-            for k in 0..3 {
-                nodes[node][[0, 1, 3][k]] += stress.area * at_node[k];
+            for k in 0..4 {
+                nodes[node][[0, 1, 3, 2][k]] += stress.area * at_node[k];
             }
             areas[node] += stress.area;
         }
     }
-    let complete = |s: [f64; 4]| [s[0], s[1], elasticity.out_of_plane * (s[0] + s[1]), s[3]];
+    let complete = |s: [f64; 4]| {
+        let zz = elasticity.out_of_plane * (s[0] + s[1]);
+        [s[0], s[1], if beyond.is_some() { zz + s[2] } else { zz }, s[3]]
+    };
     for (stress, area) in nodes.iter_mut().zip(areas) {
         *stress = complete(stress.map(|s| s / area));
     }
-    let cells = per_cell.iter().map(|(s, _)| complete([s.mean[0], s.mean[1], 0.0, s.mean[2]])).collect();
-    Stresses { cells, nodes, energy }
+    let cells =
+        per_cell.iter().map(|(s, _)| complete([s.mean[0], s.mean[1], s.mean[3], s.mean[2]])).collect();
+    Stresses { cells, nodes, energy, ..Stresses::default() }
 }
 
-/// Stress of one cell: its mean, and the fitted polynomial c₀ + c₁ ξ + c₂ η + c₃ ξη per component.
+/// Stress (xx, yy, xy) of one cell and what σ_zz has beyond that of the others: its mean, and the fitted polynomial
+/// c₀ + c₁ ξ + c₂ η + c₃ ξη per component.
 struct CellStress {
     area: f64,
-    mean: [f64; 3],
-    fit: [[f64; 3]; 4],
+    mean: [f64; 4],
+    fit: [[f64; 4]; 4],
 }
 
 impl CellStress {
-    fn at_node(&self, shape: Shape, i: usize) -> [f64; 3] {
+    fn at_node(&self, shape: Shape, i: usize) -> [f64; 4] {
         let [xi, eta] = shape.node_points()[i];
-        [0, 1, 2]
+        [0, 1, 2, 3]
             .map(|k| self.fit[0][k] + xi * self.fit[1][k] + eta * self.fit[2][k] + xi * eta * self.fit[3][k])
     }
 }
@@ -74,17 +91,18 @@ fn cell_stress(
     u: &[f64],
     elasticity: &Elasticity,
     thickness: f64,
+    beyond: Option<&PointField>,
 ) -> (CellStress, f64) {
     let shape = mesh.cells.shapes[c];
     let nodes = mesh.cells.nodes(c);
     let x = cell_coordinates(mesh, c);
     let rule = shape.stiffness_rule();
-    let mut cell = CellStress { area: 0.0, mean: [0.0; 3], fit: [[0.0; 3]; 4] };
+    let mut cell = CellStress { area: 0.0, mean: [0.0; 4], fit: [[0.0; 4]; 4] };
     let mut energy = 0.0;
     // the points of every rule are balanced, so the fit is a sum of moments over them
     let centre = if shape.corners() == 3 { 1.0 / 3.0 } else { 0.0 };
     let spread: f64 = rule.iter().map(|q| (q[0] - centre).powi(2)).sum();
-    for &[xi, eta, weight] in rule {
+    for (q, &[xi, eta, weight]) in rule.iter().enumerate() {
         let (g, det) = gradients(shape, &x, &shape.values(xi, eta));
         let mut strain = [0.0; 3];
         for (g, &node) in g.iter().zip(nodes) {
@@ -93,13 +111,20 @@ fn cell_stress(
             strain[1] += g[1] * uy;
             strain[2] += g[1] * ux + g[0] * uy;
         }
-        let stress = elasticity.stress(strain);
+        let [xx, yy, xy] = elasticity.stress(strain);
+        let mut stress = [xx, yy, xy, 0.0];
         let area = weight * det;
         cell.area += area;
         for k in 0..3 {
-            cell.mean[k] += area * stress[k];
             energy += 0.5 * thickness * area * strain[k] * stress[k];
         }
+        if let Some(beyond) = beyond {
+            let [xx, yy, zz, xy] = beyond.at(c, q);
+            let more = [xx, yy, xy, zz - elasticity.out_of_plane * (xx + yy)];
+            (0..4).for_each(|k| stress[k] += more[k]);
+            energy += thickness * area * (0..3).map(|k| strain[k] * more[k]).sum::<f64>();
+        }
+        (0..4).for_each(|k| cell.mean[k] += area * stress[k]);
         fit_point(shape, xi, eta, rule.len(), spread, stress, &mut cell.fit);
     }
     cell.mean = cell.mean.map(|s| s / cell.area);
@@ -113,8 +138,8 @@ fn fit_point(
     eta: f64,
     points: usize,
     spread: f64,
-    stress: [f64; 3],
-    fit: &mut [[f64; 3]; 4],
+    stress: [f64; 4],
+    fit: &mut [[f64; 4]; 4],
 ) {
     let n = points as f64;
     let basis = match shape {
@@ -130,7 +155,7 @@ fn fit_point(
         _ => [1.0 / n, xi / spread, eta / spread, n * xi * eta / (spread * spread)],
     };
     for (fit, basis) in fit.iter_mut().zip(basis) {
-        for k in 0..3 {
+        for k in 0..4 {
             fit[k] += basis * stress[k];
         }
     }
@@ -174,7 +199,7 @@ mod tests {
         ] {
             let (a, b, c) = (1e-3, if shape.is_quadratic() { 2e-3 } else { 0.0 }, -3e-3);
             let (mesh, u) = one_cell(shape, |x, y| [a * x + b * x * y, c * y - 0.5 * b * x * x]);
-            let stresses = recover(&mesh, &u, &elasticity, 1.0);
+            let stresses = recover(&mesh, &u, &elasticity, 1.0, None);
             for (p, stress) in mesh.points.iter().zip(&stresses.nodes) {
                 let exact = elasticity.stress([a + b * p[1], c, 0.0]);
                 for (got, exact) in

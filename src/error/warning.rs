@@ -53,11 +53,13 @@ pub enum Code {
     Beyond,
     /// Points of a softening curve whose area is not the fracture energy.
     Stretched,
+    /// Initial stresses that do not agree at an interface, or that the first loads do not hold.
+    InitialStress,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 23] = [
+    pub const ALL: [Code; 24] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -81,6 +83,7 @@ impl Code {
         Code::Unheld,
         Code::Beyond,
         Code::Stretched,
+        Code::InitialStress,
     ];
 }
 

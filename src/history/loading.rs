@@ -25,13 +25,18 @@ pub(super) struct LoadForces {
     pub(super) force: Vec<f64>,
     /// Remainder of released reactions [force].
     pub(super) released: Vec<f64>,
-    /// External forces and released reactions less the initial tractions' [force].
+    /// External forces and released reactions less those of initial tractions and of stresses beyond the strains' [force].
     pub(super) loaded: Vec<f64>,
     /// Displacements of held dofs [length].
     pub(super) prescribed: Vec<f64>,
 }
 
 impl StepLoad<'_> {
+    /// Number of the step.
+    pub(super) fn step(&self) -> usize {
+        self.start.step.number
+    }
+
     /// Loads and prescribed displacements.
     pub(super) fn forces(&self) -> &LoadForces {
         self.forces.get_or_init(|| self.start.ramped(self.load_factor))
@@ -67,7 +72,8 @@ impl<'a> Start<'a> {
         [&self.u, &self.reactions]
     }
 
-    /// Start from displacements and reactions at the end of the step before. `initial`: forces of the initial tractions.
+    /// Start from displacements and reactions at the end of the step before. `initial`: forces of the initial tractions of elastic
+    /// interfaces.
     pub(super) fn new(
         problem: &'a Problem,
         step: &'a BoundStep,
@@ -75,6 +81,12 @@ impl<'a> Start<'a> {
         u: Vec<f64>,
         reactions: Vec<f64>,
     ) -> Start<'a> {
+        let mut initial = initial;
+        if !step.warms()
+            && let Some(prestress) = step.prestress_forces(&problem.model, 1.0)
+        {
+            initial.iter_mut().zip(prestress).for_each(|(initial, p)| *initial += p);
+        }
         Start { problem, step, initial, u, reactions }
     }
 
@@ -99,7 +111,13 @@ impl<'a> Start<'a> {
         let mut released = vec![0.0; self.u.len()];
         let left = |dof: usize| (1.0 - load_factor) * self.reactions[dof];
         self.step.released.iter().for_each(|&dof| released[dof] = left(dof));
-        let loaded = force.iter().zip(&released).zip(&self.initial).map(|((f, r), f0)| f + r - f0).collect();
+        let mut loaded: Vec<f64> =
+            force.iter().zip(&released).zip(&self.initial).map(|((f, r), f0)| f + r - f0).collect();
+        if self.step.warms()
+            && let Some(prestress) = self.step.prestress_forces(&self.problem.model, load_factor)
+        {
+            loaded.iter_mut().zip(prestress).for_each(|(loaded, p)| *loaded -= p);
+        }
         LoadForces { force, released, loaded, prescribed }
     }
 

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::converged::{Converged, InterfaceResponse};
 use super::energy::{across, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
-use crate::assembly::{InterfaceOperator, Model};
+use crate::assembly::InterfaceOperator;
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
@@ -49,6 +49,8 @@ pub struct ModelState {
     ledger: Option<Ledger>,
     /// Interfaces whose jumps were found as unknowns, not taken from displacements.
     found: Vec<bool>,
+    /// Step and load factor.
+    at: (usize, f64),
 }
 
 impl ModelState {
@@ -78,9 +80,47 @@ impl ModelState {
             largest,
             ledger: None,
             found: vec![false; problem.interfaces.len()],
+            at: (0, 0.0),
         };
+        state.hold(problem);
         state.recover(problem);
         state
+    }
+
+    /// Loads and reactions that hold initial stresses, where there are any.
+    fn hold(&mut self, problem: &Problem) {
+        let Some(step) = problem.steps.first() else { return };
+        let (Some(mut inside), Ok(force)) =
+            (step.prestress_forces(&problem.model, 0.0), step.force(&problem.model, 0.0))
+        else {
+            return;
+        };
+        for (interface, bound) in problem.model.interfaces.iter().zip(&problem.interfaces) {
+            let at = |p: usize| bound.states.get(p).map_or(bound.initial.at(p), |state| state.traction);
+            let leading = |v: Local| <[f64; 3]>::from(v).into_iter().take(problem.model.components);
+            let tractions: Vec<f64> =
+                (0..interface.coupling.points.len()).flat_map(|p| leading(at(p))).collect();
+            interface.add_force(&tractions, &mut inside);
+        }
+        let held = inside.iter().zip(&force).zip(&step.constrained);
+        self.reactions = held.map(|((p, f), constrained)| if *constrained { p - f } else { 0.0 }).collect();
+        self.force = force;
+    }
+
+    /// Work of what strains bodies by themselves: −∫ σ : dε*, as ½ (u₀ + u₁) · Δp + Δ ½ ∫ ε*ᵀ C ε*.
+    fn warmed(&self, problem: &Problem, u: &[f64], at: (usize, f64)) -> f64 {
+        if !problem.steps[at.0].warms() {
+            return 0.0;
+        }
+        let nothing = || vec![0.0; u.len()];
+        let [(before, energy_before), (now, energy)] = [self.at, at].map(|(step, load_factor)| {
+            let step = &problem.steps[step];
+            let forces = step.prestress_forces(&problem.model, load_factor).unwrap_or_else(nothing);
+            (forces, step.own_strain_energy(load_factor))
+        });
+        let moved = self.snapshot.u.iter().zip(u).zip(now.iter().zip(&before));
+        moved.map(|((a, b), (now, before))| 0.5 * (a + b) * (now - before)).sum::<f64>() + energy
+            - energy_before
     }
 
     /// Opens a step whose increments may do without displacements.
@@ -96,7 +136,10 @@ impl ModelState {
     /// Takes what converged under a load.
     pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: StepLoad) {
         let Converged { solution, mut ledger, interfaces, released, residuals, .. } = found;
+        let at = (load.step(), load.load_factor);
         self.released += released;
+        self.work += solution.as_ref().map_or(0.0, |solution| self.warmed(problem, &solution.u, at));
+        self.at = at;
         self.work += match (&ledger, &self.ledger, &solution) {
             (Some(now), Some(before), _) => now.work_since(before),
             (_, _, Some(solution)) if self.is_complete() => {
@@ -153,13 +196,16 @@ impl ModelState {
         let Problem { model, interfaces, .. } = problem;
         let u = &self.snapshot.u;
         self.snapshot.stresses = match self.is_complete() {
-            true => (0..model.subdomains.len()).map(|b| stresses(model, b, u)).collect(),
+            true => (0..model.subdomains.len()).map(|b| self.stresses(problem, b, u)).collect(),
             false => Vec::new(),
         };
         self.stored = match &self.ledger {
             Some(ledger) if !self.is_complete() => ledger.stored(across(model, &self.snapshot)),
             _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
         };
+        if let Some(step) = problem.steps.get(self.at.0) {
+            self.stored += step.own_strain_energy(self.at.1);
+        }
         self.snapshot.tractions = Vec::new();
         for (k, (interface, bound)) in model.interfaces.iter().zip(interfaces).enumerate() {
             let BoundInterface { laws, initial, states: starts, .. } = bound;
@@ -191,6 +237,20 @@ impl ModelState {
         }
         let energies = [self.work, self.stored, self.dissipated, self.released].map(f64::abs);
         self.largest = energies.into_iter().fold(self.largest, f64::max);
+    }
+
+    fn stresses(&self, problem: &Problem, subdomain: usize, u: &[f64]) -> Stresses {
+        let (model, of) = (&problem.model, &problem.model.subdomains[subdomain]);
+        let (step, load_factor) = self.at;
+        let own = problem.steps.get(step).and_then(|step| step.prestress.get(subdomain)?.as_ref());
+        let beyond = own.map(|own| own.at(load_factor));
+        let u = &u[model.dofs_of(subdomain)];
+        let stresses = recover(&of.mesh, u, &of.elasticity, model.thickness, beyond.as_deref());
+        Stresses {
+            temperatures: own.and_then(|own| own.temperatures(load_factor)),
+            strains: own.and_then(|own| own.strains(load_factor)),
+            ..stresses
+        }
     }
 
     /// The largest energy so far [force × length].
@@ -244,9 +304,4 @@ impl ModelState {
         }
         values
     }
-}
-
-fn stresses(model: &Model, subdomain: usize, u: &[f64]) -> Stresses {
-    let of = &model.subdomains[subdomain];
-    recover(&of.mesh, &u[model.dofs_of(subdomain)], &of.elasticity, model.thickness)
 }

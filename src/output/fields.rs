@@ -24,10 +24,16 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
         ),
         Array::float("stress", 6, stresses.nodes.iter().flat_map(full)),
     ];
+    if let Some(temperatures) = &stresses.temperatures {
+        grid.point_data.push(Array::float("temperature", 1, temperatures.iter().copied()));
+    }
     grid.cell_data = vec![
         Array::float("stress", 6, stresses.cells.iter().flat_map(full)),
         Array::float("principal_stress", 3, stresses.cells.iter().flat_map(|&s| principal(s))),
     ];
+    if let Some(strains) = &stresses.strains {
+        grid.cell_data.push(Array::float("own_strain", 6, strains.iter().flat_map(full)));
+    }
     grid
 }
 

@@ -5,10 +5,12 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 
 use super::load::BoundLoad;
+use super::prestress::{AllInForce, StressAt};
 use super::step::BoundStep;
 use super::supports::{Supports, dofs, hold_and_release, named, prescribed, support};
+use super::{BoundInterface, in_situ};
 use crate::assembly::Model;
-use crate::error::Result;
+use crate::error::{Result, Warning};
 use crate::scene::{Control, Direction, Scene, Step};
 
 /// A group whose reaction is reported, in one direction.
@@ -32,15 +34,21 @@ impl Reaction {
 /// Loads in force, by key and what they act on.
 pub(super) type Loads = IndexMap<(&'static str, String), Arc<BoundLoad>>;
 
-/// Binds all steps.
-pub(super) fn steps(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec<Reaction>)> {
+/// Binds all steps; and tells whether the first one holds what is there before it.
+pub(super) fn steps(
+    scene: &Scene,
+    model: &Model,
+    interfaces: &[BoundInterface],
+    stresses: &[Option<StressAt>],
+) -> Result<(Vec<BoundStep>, Vec<Reaction>, Option<Warning>)> {
     let mut supports = Supports::none(model.dofs());
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
     let mut loads = Loads::new();
     let mut force = vec![0.0; model.dofs()];
     let mut steps = Vec::new();
-    for (index, step) in scene.steps.iter().enumerate() {
-        let index = index.to_string();
+    let (mut in_force, mut unbalanced) = (AllInForce::new(scene, model, stresses)?, None);
+    for (number, step) in scene.steps.iter().enumerate() {
+        let index = number.to_string();
         let constrained =
             named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
         for (key, group, direction, _) in prescribed(step).chain(constrained) {
@@ -54,7 +62,7 @@ pub(super) fn steps(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec
         let changing: Loads =
             given.clone().into_iter().filter(|(_, load)| load.follows_load_factor()).collect();
         // what is replaced by a formula in load_factor ends at once; all else ramps
-        let force_start = if changing.is_empty() {
+        let mut force_start = if changing.is_empty() {
             force
         } else {
             total(model, loads.iter().filter(|(key, _)| !changing.contains_key(*key)))?
@@ -65,7 +73,22 @@ pub(super) fn steps(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec
         for load in changing.values() {
             load.add(model, 1.0, &mut force)?;
         }
+        let prestress = in_force.step(scene, model, &index, step)?;
+        let initially = (number == 0).then(|| in_situ::holding(model, interfaces, &prestress)).flatten();
+        if let Some(holding) = initially.filter(|_| stresses.iter().any(Option::is_some)) {
+            let gravity = loads.iter().filter(|((key, _), _)| *key == "gravity");
+            let weight = resultant(model, &total(model, gravity)?);
+            unbalanced = in_situ::imbalance(scene, &holding, &force, &supports.constrained, weight);
+            // everything is held as it is at load factor 0
+            let mut formulas = vec![0.0; model.dofs()];
+            changing.values().try_for_each(|load| load.add(model, 0.0, &mut formulas))?;
+            for (dof, start) in force_start.iter_mut().enumerate() {
+                *start = if supports.constrained[dof] { force[dof] } else { holding[dof] } - formulas[dof];
+            }
+        }
         let step = BoundStep {
+            number,
+            prestress,
             name: step.name.clone(),
             increments: step.increments,
             control: step.control,
@@ -86,7 +109,13 @@ pub(super) fn steps(scene: &Scene, model: &Model) -> Result<(Vec<BoundStep>, Vec
         }
         steps.push(step);
     }
-    Ok((steps, reactions.into_values().collect()))
+    Ok((steps, reactions.into_values().collect(), unbalanced))
+}
+
+/// Size of the sum of nodal forces.
+fn resultant(model: &Model, force: &[f64]) -> f64 {
+    let along = |d: usize| force.iter().skip(d).step_by(model.components).sum::<f64>();
+    (0..model.components).map(|d| along(d).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Nodal forces of loads at the end of their step.

@@ -1,6 +1,8 @@
 //! Initial tractions t₀ at the law points of an interface (paper eq. 10).
 
+use super::in_situ;
 use super::point_laws::{place, shown};
+use super::prestress::StressAt;
 use super::quantity::Quantity;
 use super::{Gaps, PointLaws};
 use crate::assembly::InterfaceOperator;
@@ -26,14 +28,23 @@ impl InitialTraction {
         }
     }
 
-    /// Binds that of an interface: s runs along C from the start of chain A.
+    /// Binds that of an interface: s runs along C from the start of chain A. Where nothing is stated it follows from the initial
+    /// stresses of both sides.
     pub(super) fn bind(
         scene: &Scene,
         name: &str,
         stated: &scene::Interface,
         interface: &InterfaceOperator,
+        stresses: &[Option<StressAt>],
     ) -> Result<InitialTraction> {
         let [n, t] = &stated.initial_traction;
+        if n.is_zero()
+            && t.is_zero()
+            && let Some(sides) = in_situ::tractions(stresses, interface)?
+        {
+            let means = sides.into_iter().map(|[a, b]| 0.5 * (a + b));
+            return Ok(InitialTraction::Varying(means.collect()));
+        }
         if let (Some(n), Some(t)) = (n.constant(), t.constant()) {
             return Ok(InitialTraction::Uniform(Local::new(n, t, 0.0)));
         }

@@ -1,6 +1,7 @@
 //! An interface, bound: its law with all that the law starts from.
 
 use super::curve::PlannedInterface;
+use super::prestress::StressAt;
 use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
@@ -30,10 +31,11 @@ impl BoundInterface {
         operator: &InterfaceOperator,
         plan: &PlannedInterface,
         laws: PointLaws,
+        stresses: &[Option<StressAt>],
     ) -> Result<BoundInterface> {
         let stated = plan.stated;
         let gaps = Gaps::new(stated.initial_gap, operator);
-        let initial = InitialTraction::bind(scene, plan.entry, stated, operator)?;
+        let initial = InitialTraction::bind(scene, plan.entry, stated, operator, stresses)?;
         let states = initial::states(scene, plan.entry, stated, &laws, &initial, &gaps, operator)?;
         Ok(BoundInterface {
             initial,

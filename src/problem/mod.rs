@@ -8,12 +8,14 @@ mod gap;
 mod groups;
 mod history;
 mod idle;
+mod in_situ;
 mod initial;
 mod interface;
 mod load;
 mod parts;
 mod plan;
 mod point_laws;
+mod prestress;
 mod probes;
 mod quantity;
 mod rigid;
@@ -33,6 +35,7 @@ pub use initial::InitialTraction;
 pub use interface::BoundInterface;
 pub use parts::subdomain_meshes;
 pub use point_laws::PointLaws;
+pub use prestress::Prestress;
 pub use probes::{BoundProbe, ProbeInput};
 pub use rigid::is_constrained;
 pub use step::BoundStep;
@@ -42,6 +45,7 @@ pub use survey::Survey;
 pub use unused::unused_groups;
 
 use curve::PlannedInterface;
+use prestress::StressAt;
 use unjoined::Connectivity;
 
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
@@ -97,8 +101,11 @@ impl Problem {
 
     /// The same where the interfaces are known from a scene that joins alike (`joinings`).
     pub fn bind_joined(scene: &Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) -> Result<Problem> {
-        let Joined { model, interfaces, plans, connectivity, mut warnings } = join(scene, meshes, known)?;
-        let (steps, reactions) = history::steps(scene, &model)?;
+        let Joined { model, interfaces, plans, connectivity, stresses, mut warnings } =
+            join(scene, meshes, known)?;
+        warnings.extend(in_situ::disagreements(&model, &interfaces, &plans, &stresses)?);
+        let (steps, reactions, unbalanced) = history::steps(scene, &model, &interfaces, &stresses)?;
+        warnings.extend(unbalanced);
         warnings.extend(idle::loads(scene, &model)?);
         warnings.extend(idle::keys(scene, &plans));
         for step in &steps {
@@ -118,6 +125,8 @@ struct Joined<'a> {
     interfaces: Vec<BoundInterface>,
     plans: Vec<PlannedInterface<'a>>,
     connectivity: Vec<Connectivity>,
+    /// Initial stress of every subdomain.
+    stresses: Vec<Option<StressAt>>,
     warnings: Vec<Warning>,
 }
 
@@ -128,6 +137,7 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
         subdomains: subdomains(scene, meshes),
         interfaces: Vec::new(),
     };
+    let stresses = StressAt::all(scene, &model);
     let mut warnings = warnings::locking(&model.subdomains);
     let mut interfaces = Vec::new();
     let opened = within::open(scene, &mut model)?;
@@ -139,7 +149,7 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
         let laws = PointLaws::bind(scene, plan.entry, plan.stated, &operator)?;
         stiffness::check_precision(scene, &model, &operator, plan, &laws)?;
         warnings.extend(warnings::of_interface(scene, &model, &operator, plan, &laws));
-        interfaces.push(BoundInterface::new(scene, &model, &operator, plan, laws)?);
+        interfaces.push(BoundInterface::new(scene, &model, &operator, plan, laws, &stresses)?);
         model.interfaces.push(operator);
     }
     warnings.extend(cover::shares(scene, &model, &plans)?);
@@ -148,7 +158,7 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     for (subdomain, found) in model.subdomains.iter_mut().zip(&connectivity) {
         subdomain.pieces = found.nodes(subdomain);
     }
-    Ok(Joined { model, interfaces, plans, connectivity, warnings })
+    Ok(Joined { model, interfaces, plans, connectivity, stresses, warnings })
 }
 
 fn subdomains(scene: &Scene, meshes: Vec<Mesh>) -> Vec<BoundSubdomain> {

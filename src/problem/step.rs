@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::load::BoundLoad;
 use super::quantity::Quantity;
+use super::{Prestress, prestress};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::{Control, FormulaPlace};
@@ -15,6 +16,8 @@ use crate::scene::{Control, FormulaPlace};
 /// One step, bound.
 #[derive(Debug, Clone)]
 pub struct BoundStep {
+    /// Number of the step.
+    pub number: usize,
     /// Name of the step.
     pub name: String,
     /// Number of increments.
@@ -35,6 +38,8 @@ pub struct BoundStep {
     pub(super) force_start: Vec<f64>,
     /// The same at its end.
     pub(super) force_end: Vec<f64>,
+    /// What bodies have beyond the stresses of their strains, subdomain by subdomain; empty if none has anything.
+    pub prestress: Vec<Option<Arc<Prestress>>>,
     /// Loads that follow a formula in load_factor.
     pub(super) changing: Vec<Arc<BoundLoad>>,
 }
@@ -85,6 +90,21 @@ impl BoundStep {
             u[dof] = start[dof];
         }
         u
+    }
+
+    /// Nodal forces of what bodies have beyond the stresses of their strains; none if they have nothing [force].
+    pub fn prestress_forces(&self, model: &Model, load_factor: f64) -> Option<Vec<f64>> {
+        prestress::forces(model, &self.prestress, load_factor)
+    }
+
+    /// Energy of the strains that bodies have of their own, were they held [force × length].
+    pub fn own_strain_energy(&self, load_factor: f64) -> f64 {
+        self.prestress.iter().flatten().map(|own| own.energy(load_factor)).sum()
+    }
+
+    /// True if temperature or strains change in it.
+    pub fn warms(&self) -> bool {
+        self.prestress.iter().flatten().any(|own| own.changes())
     }
 
     /// True if a formula in load_factor makes loads or displacements anything but a ramp.

@@ -1,7 +1,7 @@
 //! Validation of a scene beyond its types: names that exist, numbers that mean something.
 
 use super::named::{check_group, check_name};
-use super::{Load, Plane, Scene, Step, Subdomain, split_group};
+use super::{Load, Plane, Scene, Step, Subdomain, Variable, split_group};
 use crate::error::{Result, name_help};
 use crate::scene::probe::Probe;
 
@@ -65,6 +65,9 @@ impl Scene {
                 };
                 return error_at("poisson", format!("Poisson's ratio {nu} is out of range"), help);
             }
+            if !material.expansion.is_finite() {
+                return error_at("expansion", "it is not a number".into(), "give a number");
+            }
             if !(material.density >= 0.0 && material.density.is_finite()) {
                 return error_at(
                     "density",
@@ -109,6 +112,7 @@ impl Scene {
                 ));
             }
             self.check_shared(name, subdomain)?;
+            self.check_initial_stress(name)?;
             if !self.materials.contains_key(&subdomain.material) {
                 let what = format!("no material \"{}\"", subdomain.material);
                 let help = name_help(&subdomain.material, self.materials.keys().map(String::as_str));
@@ -157,6 +161,7 @@ impl Scene {
             }
         }
         self.check_gravity(index, step)?;
+        self.check_own_strains(index, step)?;
         for (group, directions) in &step.fix {
             if directions.is_empty() {
                 let path = ["steps", index, "fix", group];
@@ -193,6 +198,33 @@ impl Scene {
                     format!("\"{group}\" is not a subdomain"),
                     "name the subdomain alone",
                 ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Temperature and strain act on subdomains; temperature on an expansion.
+    fn check_own_strains(&self, index: &str, step: &Step) -> Result<()> {
+        let temperatures = step.temperature.iter().map(|(name, value)| ("temperature", name, value));
+        let strains =
+            step.strain.iter().flat_map(|(name, values)| values.iter().map(move |v| ("strain", name, v)));
+        for (key, name, value) in temperatures.chain(strains) {
+            let path = ["steps", index, key, name.as_str()];
+            let Some(subdomain) = self.subdomains.get(name) else {
+                let help = name_help(name, self.subdomains.keys().map(String::as_str));
+                return Err(self.source.error_at(&path, format!("no subdomain \"{name}\""), help));
+            };
+            for variable in [Variable::S, Variable::LoadFactor] {
+                if value.uses(variable) {
+                    let what = format!("{} in \"{value}\"", variable.name());
+                    let help = "write it in x and y: it is ramped to its value at the end of the step";
+                    return Err(self.source.error_at(&path, what, help));
+                }
+            }
+            let material = &subdomain.material;
+            if key == "temperature" && self.materials.get(material).is_some_and(|own| own.expansion == 0.0) {
+                let what = format!("temperature acts on no expansion: materials.{material}.expansion is 0");
+                return Err(self.source.error_at(&path, what, "give the material an \"expansion\""));
             }
         }
         Ok(())

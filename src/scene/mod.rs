@@ -8,6 +8,7 @@ mod check;
 pub mod expression;
 mod functions;
 mod grammar;
+mod ground;
 mod interface;
 mod interface_check;
 mod named;
@@ -23,6 +24,7 @@ mod stated_law;
 mod value;
 
 pub use accuracy::{Accuracy, Preset};
+pub use ground::{Ground, InitialStress, StressComponents};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
 pub use op::{FormulaPlace, Variable};
 pub use read::{document, parse, read};
@@ -106,6 +108,9 @@ pub struct Subdomain {
     /// Numbers handed to gmsh in place of the defaults of the `.geo` (its `DefineConstant`).
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub parameters: IndexMap<String, f64>,
+    /// Stress that is there before the first load, in equilibrium with the loads of the first step.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_stress: Option<InitialStress>,
 }
 
 /// Isotropic linear elastic material.
@@ -119,6 +124,9 @@ pub struct Material {
     /// Mass density [mass / volume], for gravity.
     #[serde(default)]
     pub density: f64,
+    /// Coefficient of thermal expansion α [1 / temperature], for `temperature`.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub expansion: f64,
 }
 
 /// A stage of loading. Supports and loads stay in force in later steps unless replaced.
@@ -156,6 +164,13 @@ pub struct Step {
     /// Acceleration (x, y) that acts on every density [length / time²], ramped like a load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[Value; 2]>,
+    /// Difference of temperature by subdomain, a number or a formula in x and y, ramped from its last value: with the
+    /// `expansion` of the material it strains all three directions [temperature].
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub temperature: IndexMap<String, Value>,
+    /// Strain of its own (xx, yy, zz, xy) by subdomain, such as shrinkage, tensor components, ramped alike [-].
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub strain: IndexMap<String, [Value; 4]>,
 }
 
 /// A coordinate direction.
@@ -245,6 +260,10 @@ pub fn split_group(name: &str) -> (&str, Option<&str>) {
         Some((subdomain, group)) => (subdomain, Some(group)),
         None => (name, None),
     }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn one() -> f64 {

@@ -1,0 +1,292 @@
+//! Stresses beyond those of the strains, bound: initial stress, and temperature and strains of their own from step to step.
+
+use std::sync::Arc;
+
+use super::quantity::Quantity;
+use crate::assembly::Model;
+use crate::continuum::PointField;
+use crate::error::{Error, Result};
+use crate::scene::{FormulaPlace, Ground, InitialStress, Plane, Scene, Step, Value};
+use crate::shape::Ends;
+
+/// What a body has beyond the stresses of its strains, at the start and at the end of a step, between which it is affine.
+#[derive(Debug, Clone)]
+pub struct Prestress {
+    /// σ_p at the points of the stiffness rule [stress].
+    pub stress: [Arc<PointField>; 2],
+    /// Its nodal forces [force].
+    pub force: [Arc<Vec<f64>>; 2],
+    /// ½ ∫ ε*ᵀ C ε* as a parabola in the load factor [force × length].
+    energy: [f64; 3],
+    /// Differences of temperature at the nodes, where the scene gives some.
+    pub temperature: Option<[Arc<Vec<f64>>; 2]>,
+    /// Strains ε* of its own, those of temperature among them, where it has some [-].
+    pub strain: Option<[Arc<PointField>; 2]>,
+}
+
+impl Prestress {
+    /// σ_p at a load factor.
+    pub fn at(&self, load_factor: f64) -> Arc<PointField> {
+        between(&self.stress, load_factor, |from, to| to.plus(from, -1.0), |from, by, s| from.plus(by, s))
+    }
+
+    /// Mean of ε* over every cell at a load factor [-].
+    pub fn strains(&self, load_factor: f64) -> Option<Vec<[f64; 4]>> {
+        let strain = self.strain.as_ref()?;
+        let at = between(strain, load_factor, |from, to| to.plus(from, -1.0), |from, by, s| from.plus(by, s));
+        Some(at.cells())
+    }
+
+    /// Differences of temperature at the nodes at a load factor.
+    pub fn temperatures(&self, load_factor: f64) -> Option<Vec<f64>> {
+        let [from, to] = self.temperature.as_ref()?;
+        Some(from.iter().zip(to.iter()).map(|(a, b)| a + load_factor * (b - a)).collect())
+    }
+
+    /// ½ ∫ ε*ᵀ C ε* at a load factor [force × length].
+    pub fn energy(&self, load_factor: f64) -> f64 {
+        let [constant, linear, square] = self.energy;
+        constant + load_factor * (linear + load_factor * square)
+    }
+
+    /// True if it changes in the step.
+    pub fn changes(&self) -> bool {
+        !Arc::ptr_eq(&self.stress[0], &self.stress[1])
+    }
+}
+
+/// A value between two ends; the ends themselves without arithmetic.
+fn between<T>(
+    [from, to]: &[Arc<T>; 2],
+    load_factor: f64,
+    change: impl Fn(&T, &T) -> T,
+    add: impl Fn(&T, &T, f64) -> T,
+) -> Arc<T> {
+    match load_factor {
+        _ if Arc::ptr_eq(from, to) => to.clone(),
+        1.0 => to.clone(),
+        0.0 => from.clone(),
+        _ => Arc::new(add(from, &change(from, to), load_factor)),
+    }
+}
+
+/// Initial stress of a subdomain at a place (x, y) [stress].
+#[derive(Debug, Clone)]
+pub(super) enum StressAt {
+    Ground { ground: Ground, weight: f64, out_of_plane: bool },
+    Components([Quantity; 4]),
+}
+
+impl StressAt {
+    /// That of every subdomain, where it has one.
+    pub(super) fn all(scene: &Scene, model: &Model) -> Vec<Option<StressAt>> {
+        let of = |(b, (name, stated)): (usize, (&String, &crate::scene::Subdomain))| {
+            Some(match stated.initial_stress.as_ref()? {
+                InitialStress::Ground(ground) => StressAt::Ground {
+                    ground: *ground,
+                    weight: -model.subdomains[b].density * ground.gravity[1],
+                    out_of_plane: scene.plane == Plane::Strain,
+                },
+                InitialStress::Components(components) => {
+                    StressAt::Components(components.keys().map(|(key, value)| {
+                        Quantity::new(scene, &["subdomains", name, "initial_stress", key], value)
+                    }))
+                }
+            })
+        };
+        scene.subdomains.iter().enumerate().map(of).collect()
+    }
+
+    /// (xx, yy, zz, xy) at a place.
+    pub(super) fn at(&self, [x, y, z]: [f64; 3]) -> Result<[f64; 4]> {
+        match self {
+            StressAt::Ground { ground, weight, out_of_plane } => {
+                let vertical = -ground.overburden - weight * (ground.surface - y);
+                let horizontal = ground.k0 * vertical;
+                Ok([horizontal, vertical, if *out_of_plane { horizontal } else { 0.0 }, 0.0])
+            }
+            StressAt::Components(components) => {
+                let place = FormulaPlace { x, y, z, s: 0.0, load_factor: 0.0 };
+                let mut stress = [0.0; 4];
+                for (stress, component) in stress.iter_mut().zip(components) {
+                    *stress = component.at(&place)?;
+                }
+                Ok(stress)
+            }
+        }
+    }
+}
+
+/// What is in force in a subdomain from step to step.
+#[derive(Debug, Clone, Default)]
+struct InForce {
+    initial: Option<Arc<PointField>>,
+    temperature: Option<Arc<Vec<f64>>>,
+    /// Strains of temperature, and those given.
+    warmed: Option<Arc<PointField>>,
+    given: Option<Arc<PointField>>,
+    /// σ_p and its forces as they were last.
+    last: Option<(Arc<PointField>, Arc<Vec<f64>>)>,
+}
+
+/// What is in force in all subdomains.
+pub(super) struct AllInForce(Vec<InForce>);
+
+impl AllInForce {
+    /// Before the first step.
+    pub(super) fn new(scene: &Scene, model: &Model, initial: &[Option<StressAt>]) -> Result<AllInForce> {
+        let of = |(b, stress): (usize, &Option<StressAt>)| {
+            let (name, mesh) = (&model.subdomains[b].name, &model.subdomains[b].mesh);
+            let nothing = || PointField::sample(mesh, |_| Ok::<_, Error>([0.0; 4]));
+            let mut own = InForce::default();
+            // results have the same arrays from the first to the last
+            if scene.steps.iter().any(|step| step.temperature.contains_key(name)) {
+                own.temperature = Some(Arc::new(vec![0.0; mesh.points.len()]));
+                own.warmed = Some(Arc::new(nothing()?));
+            }
+            if scene.steps.iter().any(|step| step.strain.contains_key(name)) {
+                own.given = Some(Arc::new(nothing()?));
+            }
+            let stress = match stress {
+                Some(stress) => PointField::sample(mesh, |place| stress.at(place))?,
+                None if own.warmed.is_some() || own.given.is_some() => nothing()?,
+                None => return Ok(own),
+            };
+            let force = Arc::new(stress.forces(mesh, model.thickness));
+            let stress = Arc::new(stress);
+            Ok(InForce { initial: Some(stress.clone()), last: Some((stress, force)), ..own })
+        };
+        Ok(AllInForce(initial.iter().enumerate().map(of).collect::<Result<_>>()?))
+    }
+
+    /// Goes through a step: what bodies have in it; empty if none has anything.
+    pub(super) fn step(
+        &mut self,
+        scene: &Scene,
+        model: &Model,
+        index: &str,
+        step: &Step,
+    ) -> Result<Vec<Option<Arc<Prestress>>>> {
+        let mut all = Vec::new();
+        for (b, own) in self.0.iter_mut().enumerate() {
+            all.push(own.step(scene, model, index, step, b)?.map(Arc::new));
+        }
+        if all.iter().all(Option::is_none) {
+            all.clear();
+        }
+        Ok(all)
+    }
+}
+
+impl InForce {
+    fn step(
+        &mut self,
+        scene: &Scene,
+        model: &Model,
+        index: &str,
+        step: &Step,
+        b: usize,
+    ) -> Result<Option<Prestress>> {
+        let subdomain = &model.subdomains[b];
+        let (mesh, elasticity) = (&subdomain.mesh, subdomain.elasticity);
+        let before = self.clone();
+        let quantity = |key: &str, more: &[&str], value: &Value| {
+            let path: Vec<&str> =
+                ["steps", index, key, &subdomain.name].into_iter().chain(more.iter().copied()).collect();
+            Quantity::new(scene, &path, value)
+        };
+        if let Some(value) = step.temperature.get(&subdomain.name) {
+            let value = quantity("temperature", &[], value);
+            let expansion = scene.materials[&scene.subdomains[&subdomain.name].material].expansion;
+            let at = |place: [f64; 3]| value.at(&in_body(place));
+            let nodes: Result<Vec<f64>> = mesh.points.iter().map(|&place| at(place)).collect();
+            let warmed = PointField::sample(mesh, |place| {
+                let strain = expansion * at(place)?;
+                Ok::<_, Error>([strain, strain, strain, 0.0])
+            })?;
+            (self.temperature, self.warmed) = (Some(Arc::new(nodes?)), Some(Arc::new(warmed)));
+        }
+        if let Some(values) = step.strain.get(&subdomain.name) {
+            let parts = ["0", "1", "2", "3"].iter().zip(values);
+            let values: Vec<Quantity> =
+                parts.map(|(part, value)| quantity("strain", &[part], value)).collect();
+            let given = PointField::sample(mesh, |place| {
+                let mut strain = [0.0; 4];
+                for (strain, value) in strain.iter_mut().zip(&values) {
+                    *strain = value.at(&in_body(place))?;
+                }
+                Ok::<_, Error>(strain)
+            })?;
+            self.given = Some(Arc::new(given));
+        }
+        let changes =
+            step.temperature.contains_key(&subdomain.name) || step.strain.contains_key(&subdomain.name);
+        if changes {
+            let eigen = self.strain().map(|strain| strain.map(|strain| elasticity.eigenstress(strain)));
+            let stress = match (eigen, &self.initial) {
+                (Some(eigen), Some(initial)) => eigen.plus(initial, 1.0),
+                (Some(one), None) => one,
+                (None, _) => return Ok(None),
+            };
+            let force = stress.forces(mesh, model.thickness);
+            self.last = Some((Arc::new(stress), Arc::new(force)));
+        }
+        let (Some((stress_before, force_before)), Some((stress, force))) =
+            (before.last.clone(), self.last.clone())
+        else {
+            return Ok(None);
+        };
+        let strain = before.strain().zip(self.strain()).map(|(start, end)| {
+            let end = Arc::new(end);
+            [if changes { Arc::new(start) } else { end.clone() }, end]
+        });
+        let energy = match &strain {
+            None => [0.0; 3],
+            Some([from, to]) => {
+                let by = to.plus(from, -1.0);
+                let [from_stress, by_stress] =
+                    [&**from, &by].map(|field| field.map(|strain| elasticity.eigenstress(strain)));
+                let product = |stress: &PointField, strain: &PointField| {
+                    -0.5 * stress.product(strain, mesh, model.thickness)
+                };
+                [product(&from_stress, from), 2.0 * product(&from_stress, &by), product(&by_stress, &by)]
+            }
+        };
+        let temperature = before.temperature.clone().zip(self.temperature.clone()).map(<[_; 2]>::from);
+        let (stress, force) = ([stress_before, stress], [force_before, force]);
+        Ok(Some(Prestress { stress, force, energy, temperature, strain }))
+    }
+
+    /// ε* in force.
+    fn strain(&self) -> Option<PointField> {
+        match (&self.warmed, &self.given) {
+            (Some(warmed), Some(given)) => Some(warmed.plus(given, 1.0)),
+            (Some(one), None) | (None, Some(one)) => Some((**one).clone()),
+            (None, None) => None,
+        }
+    }
+}
+
+fn in_body([x, y, z]: [f64; 3]) -> FormulaPlace {
+    FormulaPlace { x, y, z, s: 0.0, load_factor: 1.0 }
+}
+
+/// Nodal forces of what bodies have beyond the stresses of their strains at a load factor; none if they have nothing [force].
+pub(super) fn forces(model: &Model, all: &[Option<Arc<Prestress>>], load_factor: f64) -> Option<Vec<f64>> {
+    if all.is_empty() {
+        return None;
+    }
+    let mut force = vec![0.0; model.dofs()];
+    for (b, own) in all.iter().enumerate() {
+        let Some(Prestress { force: [from, to], .. }) = own.as_deref() else { continue };
+        let dofs = &mut force[model.dofs_of(b)];
+        for (dof, (from, to)) in dofs.iter_mut().zip(from.iter().zip(to.iter())) {
+            *dof += ramp([*from, *to], load_factor);
+        }
+    }
+    Some(force)
+}
+
+fn ramp([from, to]: Ends, load_factor: f64) -> f64 {
+    if load_factor == 1.0 { to } else { from + load_factor * (to - from) }
+}
