@@ -69,6 +69,7 @@ mod shared_mesh;
 mod shear_box;
 mod slit;
 mod snapback;
+mod stages;
 mod steps;
 mod stiff;
 mod structures;

@@ -41,7 +41,8 @@ pub(super) fn prepare(
 ) -> bool {
     let problem = analysis.problem;
     let known = active(problem).len() == problem.model.interfaces.len() || analysis.engine.finds_all_jumps();
-    let unstored = problem.fields != Fields::Every && known && !follows && !step.warms();
+    let unstored =
+        problem.fields != Fields::Every && known && !follows && !step.warms() && step.stage.is_none();
     let measures: Vec<LinearMeasure> =
         ramp.filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
     let thrifty = !measures.is_empty() && measures.len() < step.increments;

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use serde::{Deserialize, Serialize};
 
+use super::stages::HeldForces;
 use crate::error::Result;
 use crate::problem::{BoundProbe, BoundStep, Problem};
 use crate::shape::Ends;
@@ -64,6 +65,7 @@ pub(super) struct Start<'a> {
     initial: Vec<f64>,
     u: Vec<f64>,
     reactions: Vec<f64>,
+    held: Vec<HeldForces>,
 }
 
 impl<'a> Start<'a> {
@@ -80,6 +82,7 @@ impl<'a> Start<'a> {
         initial: Vec<f64>,
         u: Vec<f64>,
         reactions: Vec<f64>,
+        held: Vec<HeldForces>,
     ) -> Start<'a> {
         let mut initial = initial;
         if !step.warms()
@@ -87,7 +90,7 @@ impl<'a> Start<'a> {
         {
             initial.iter_mut().zip(prestress).for_each(|(initial, p)| *initial += p);
         }
-        Start { problem, step, initial, u, reactions }
+        Start { problem, step, initial, u, reactions, held }
     }
 
     /// Loads at a load factor.
@@ -107,7 +110,8 @@ impl<'a> Start<'a> {
         self.forces(load_factor, self.step.ramped(load_factor), self.step.moved(&self.u, load_factor))
     }
 
-    fn forces(&self, load_factor: f64, force: Vec<f64>, prescribed: Vec<f64>) -> LoadForces {
+    fn forces(&self, load_factor: f64, mut force: Vec<f64>, prescribed: Vec<f64>) -> LoadForces {
+        HeldForces::add(&self.held, self.step, load_factor, &mut force);
         let mut released = vec![0.0; self.u.len()];
         let left = |dof: usize| (1.0 - load_factor) * self.reactions[dof];
         self.step.released.iter().for_each(|&dof| released[dof] = left(dof));

@@ -31,6 +31,7 @@ mod progress;
 mod rest;
 mod settle;
 mod snap;
+mod stages;
 mod state;
 mod stretch;
 mod totals;
@@ -137,7 +138,8 @@ impl<'a> History<'a> {
             let kept = analysis.totals.increments;
             analysis.engine.support(&step.constrained).map_err(|_| singular(step, kept))?;
             if let Some([u, reactions]) = before {
-                let start = Start::new(problem, step, initial_force(problem), u, reactions);
+                let held = analysis.state.held.clone();
+                let start = Start::new(problem, step, initial_force(problem), u, reactions, held);
                 let ramp = start.ramp()?;
                 load::prepare(
                     &mut analysis,
@@ -242,9 +244,10 @@ impl<'a> History<'a> {
     fn open(&mut self, step_number: usize, step: &'a BoundStep) -> Result<()> {
         let History { analysis, position, loads } = self;
         let problem = analysis.problem;
+        analysis.state.enter(problem, step);
         let start = |state: &ModelState| {
             let (u, reactions) = (state.snapshot.u.clone(), state.reactions.clone());
-            Start::new(problem, step, initial_force(problem), u, reactions)
+            Start::new(problem, step, initial_force(problem), u, reactions, state.held.clone())
         };
         if step_number == 0 {
             let unloaded = start(&analysis.state);

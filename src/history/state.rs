@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::converged::{Converged, InterfaceResponse};
 use super::energy::{across, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
+use super::stages::{HeldForces, presence_at_first};
 use crate::assembly::InterfaceOperator;
 use crate::continuum::{Stresses, recover};
 use crate::law::{self, Local, local};
@@ -50,7 +51,9 @@ pub struct ModelState {
     /// Interfaces whose jumps were found as unknowns, not taken from displacements.
     found: Vec<bool>,
     /// Step and load factor.
-    at: (usize, f64),
+    pub(super) at: (usize, f64),
+    /// Forces of parts that have gone.
+    pub(super) held: Vec<HeldForces>,
 }
 
 impl ModelState {
@@ -62,6 +65,7 @@ impl ModelState {
             u: u.clone(),
             jumps: problem.model.interfaces.iter().map(none).collect(),
             states: problem.interfaces.iter().map(|interface| interface.states.clone()).collect(),
+            presence: presence_at_first(problem),
             ..Snapshot::default()
         };
         let (force, reactions) = (u.clone(), u);
@@ -81,6 +85,7 @@ impl ModelState {
             ledger: None,
             found: vec![false; problem.interfaces.len()],
             at: (0, 0.0),
+            held: Vec::new(),
         };
         state.hold(problem);
         state.recover(problem);
@@ -169,7 +174,12 @@ impl ModelState {
                 self.released += area * answer.released;
                 *old = answer.state;
             }
-            self.snapshot.jumps[interface] = jumps;
+            let presence = &self.snapshot.presence;
+            let counted = |(p, jump): (usize, Local)| match presence.is_absent(interface) {
+                true => Local::zeros(),
+                false => presence.counted(interface, p, jump),
+            };
+            self.snapshot.jumps[interface] = jumps.into_iter().enumerate().map(counted).collect();
             self.found[interface] = true;
         }
         self.residual = residuals[residuals.len() - 1];
@@ -210,7 +220,7 @@ impl ModelState {
         for (k, (interface, bound)) in model.interfaces.iter().zip(interfaces).enumerate() {
             let BoundInterface { laws, initial, states: starts, .. } = bound;
             let area = |p: usize| model.thickness * interface.coupling.points[p].weight;
-            if laws.kind().is_linear() {
+            if bound.is_linear() {
                 let d = |p: usize| Local::from(laws.at(p).elastic_stiffness());
                 if !self.found[k] {
                     self.snapshot.jumps[k] =
@@ -226,8 +236,16 @@ impl ModelState {
                     let energy = ((0.5 * d(p)).component_mul(r) + initial.at(p)).dot(r);
                     self.stored += area(p) * energy;
                 }
+            } else if self.snapshot.presence.is_absent(k) {
+                self.snapshot.tractions.push(vec![Local::zeros(); interface.coupling.points.len()]);
             } else {
                 let states = &self.snapshot.states[k];
+                // of a part that has come again nothing was stored before
+                let starts = if self.snapshot.presence.origins.get(k).is_some_and(|own| !own.is_empty()) {
+                    bound.anew.as_ref().unwrap_or(starts)
+                } else {
+                    starts
+                };
                 for (p, (state, start)) in states.iter().zip(starts).enumerate() {
                     let law = laws.at(p);
                     self.stored += area(p) * (law.stored(state) - law.stored(start));

@@ -31,6 +31,10 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
         Array::float("stress", 6, stresses.cells.iter().flat_map(full)),
         Array::float("principal_stress", 3, stresses.cells.iter().flat_map(|&s| principal(s))),
     ];
+    if let Some(is_there) = snapshot.presence.parts.get(index) {
+        let cells = subdomain.mesh.cells.len();
+        grid.cell_data.push(Array::int("present", std::iter::repeat_n(i64::from(*is_there), cells)));
+    }
     if let Some(strains) = &stresses.strains {
         grid.cell_data.push(Array::float("own_strain", 6, strains.iter().flat_map(full)));
     }
@@ -73,6 +77,7 @@ pub(super) fn interface(
     let of = |s: f64| breaks.partition_point(|start| *start <= s);
     let lines: Vec<i64> =
         (1..n).filter(|&i| of(points[i - 1].s) == of(points[i].s)).map(|i| i as i64).collect();
+    let is_absent = snapshot.presence.is_absent(index);
     let none = vec![State::default(); n];
     let states = Some(&snapshot.states[index]).filter(|states| !states.is_empty()).unwrap_or(&none);
     let plastic: Vec<Local> = states.iter().map(|state| state.jump_plastic).collect();
@@ -95,7 +100,7 @@ pub(super) fn interface(
     ];
     point_data.extend(own);
     point_data.extend([
-        Array::int("status", states.iter().map(|state| i64::from(state.status))),
+        Array::int("status", states.iter().map(|state| if is_absent { -1 } else { i64::from(state.status) })),
         Array::float("length", 1, points.iter().map(|p| p.weight)),
         Array::float("normal", 3, points.iter().flat_map(|p| p.rotation[0])),
     ]);

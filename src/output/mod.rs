@@ -32,4 +32,34 @@ pub struct Snapshot {
     pub tractions: Vec<Vec<Local>>,
     /// State of the law points of every interface; empty for an elastic one.
     pub states: Vec<Vec<law::State>>,
+    /// Parts that are there.
+    pub presence: Presence,
+}
+
+/// Parts that are there, where some come and go; empty where all are there, always.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct Presence {
+    /// True for a subdomain that is there.
+    pub parts: Vec<bool>,
+    /// True for an interface of which a part is not there.
+    pub absent: Vec<bool>,
+    /// Jumps from which those of the law points of an interface count: those at which its part came; empty for none [length].
+    pub origins: Vec<Vec<Local>>,
+}
+
+impl Presence {
+    /// True for an interface of which a part is not there.
+    #[inline]
+    pub fn is_absent(&self, interface: usize) -> bool {
+        self.absent.get(interface).is_some_and(|absent| *absent)
+    }
+
+    /// A jump as the law counts it.
+    #[inline]
+    pub fn counted(&self, interface: usize, point: usize, jump: Local) -> Local {
+        match self.origins.get(interface).and_then(|origins| origins.get(point)) {
+            Some(origin) => jump - origin,
+            None => jump,
+        }
+    }
 }

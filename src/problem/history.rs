@@ -47,8 +47,14 @@ pub(super) fn steps(
     let mut force = vec![0.0; model.dofs()];
     let mut steps = Vec::new();
     let (mut in_force, mut unbalanced) = (AllInForce::new(scene, model, stresses)?, None);
+    let stages = scene.stages()?;
     for (number, step) in scene.steps.iter().enumerate() {
         let index = number.to_string();
+        let stage = stages.get(number);
+        let is_there = |load: &BoundLoad| stage.is_none_or(|stage| stage.present[load.subdomain()]);
+        let stays = |load: &BoundLoad| {
+            is_there(load) && stage.is_none_or(|stage| !stage.activated.contains(&load.subdomain()))
+        };
         let constrained =
             named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
         for (key, group, direction, _) in prescribed(step).chain(constrained) {
@@ -59,24 +65,28 @@ pub(super) fn steps(
         let (moving, here) = support(scene, model, &index, step, &mut supports)?;
         let released = hold_and_release(scene, model, &index, step, here, &mut supports)?;
         let given = given(scene, model, &index, step)?;
-        let changing: Loads =
-            given.clone().into_iter().filter(|(_, load)| load.follows_load_factor()).collect();
+        let changing: Loads = given
+            .clone()
+            .into_iter()
+            .filter(|(_, load)| load.follows_load_factor() && is_there(load))
+            .collect();
         // what is replaced by a formula in load_factor ends at once; all else ramps
-        let mut force_start = if changing.is_empty() {
+        let ramps = |key: &(&'static str, String)| !changing.contains_key(key);
+        let mut force_start = if changing.is_empty() && stage.is_none() {
             force
         } else {
-            total(model, loads.iter().filter(|(key, _)| !changing.contains_key(*key)))?
+            total(model, loads.iter().filter(|(key, load)| ramps(key) && stays(load)))?
         };
         loads.extend(given);
-        let force_end = total(model, loads.iter().filter(|(key, _)| !changing.contains_key(*key)))?;
+        let force_end = total(model, loads.iter().filter(|(key, load)| ramps(key) && is_there(load)))?;
         force = force_end.clone();
         for load in changing.values() {
             load.add(model, 1.0, &mut force)?;
         }
-        let prestress = in_force.step(scene, model, &index, step)?;
+        let prestress = in_force.step(scene, model, &index, step, stage)?;
         let initially = (number == 0).then(|| in_situ::holding(model, interfaces, &prestress)).flatten();
         if let Some(holding) = initially.filter(|_| stresses.iter().any(Option::is_some)) {
-            let gravity = loads.iter().filter(|((key, _), _)| *key == "gravity");
+            let gravity = loads.iter().filter(|((key, _), load)| *key == "gravity" && is_there(load));
             let weight = resultant(model, &total(model, gravity)?);
             unbalanced = in_situ::imbalance(scene, &holding, &force, &supports.constrained, weight);
             // everything is held as it is at load factor 0
@@ -86,16 +96,24 @@ pub(super) fn steps(
                 *start = if supports.constrained[dof] { force[dof] } else { holding[dof] } - formulas[dof];
             }
         }
+        let mut own = Supports {
+            constrained: supports.constrained.clone(),
+            prescribed: supports.prescribed.clone(),
+            frozen: supports.frozen.clone(),
+        };
+        stage.iter().for_each(|stage| own.take_away(model, stage));
+        let Supports { constrained, prescribed, frozen } = own;
         let step = BoundStep {
             number,
+            stage: stage.cloned(),
             prestress,
             name: step.name.clone(),
             increments: step.increments,
             control: step.control,
-            constrained: supports.constrained.clone(),
+            constrained,
             released,
-            prescribed: supports.prescribed.clone(),
-            frozen: supports.frozen.clone(),
+            prescribed,
+            frozen,
             moving,
             force_start,
             force_end,

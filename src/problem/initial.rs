@@ -58,7 +58,7 @@ impl InitialTraction {
     }
 }
 
-/// States of the law points before the first increment; none for an elastic interface.
+/// States of the law points before the first increment.
 pub(super) fn states(
     scene: &Scene,
     name: &str,
@@ -68,9 +68,6 @@ pub(super) fn states(
     gaps: &Gaps,
     interface: &InterfaceOperator,
 ) -> Result<Vec<law::State>> {
-    if laws.kind().is_linear() {
-        return Ok(Vec::new());
-    }
     let damage = Quantity::new(scene, &["interfaces", name, "initial_damage"], &stated.initial_damage);
     let place = |point: usize| place(interface, point);
     let state = |point: usize| {

@@ -5,8 +5,31 @@ use super::prestress::StressAt;
 use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
-use crate::law::{self, Integration};
-use crate::scene::Scene;
+use crate::law::{self, Integration, Local};
+use crate::scene::{Scene, Stage};
+
+/// Whether the parts that an interface joins come or go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Parts {
+    /// They are always there.
+    Stay,
+    /// They are there at first.
+    Go,
+    /// They are not there at first.
+    Absent,
+}
+
+impl Parts {
+    fn of(scene: &Scene, operator: &InterfaceOperator) -> Result<Parts> {
+        let stages = scene.stages()?;
+        let changes = |stage: &Stage, b: usize| stage.activated.contains(&b) || stage.removed.contains(&b);
+        if !operator.subdomains.iter().any(|&b| stages.iter().any(|stage| changes(stage, b))) {
+            return Ok(Parts::Stay);
+        }
+        let there = scene.there_at_first()?;
+        Ok(if operator.subdomains.iter().all(|&b| there[b]) { Parts::Go } else { Parts::Absent })
+    }
+}
 
 /// An interface, bound.
 #[derive(Debug, Clone)]
@@ -21,9 +44,16 @@ pub struct BoundInterface {
     pub integration: Integration,
     /// True for an elastic interface that is too stiff for differences of displacements.
     pub stiff: bool,
+    /// States of the law points when a part of it comes; none if its parts are always there.
+    pub anew: Option<Vec<law::State>>,
 }
 
 impl BoundInterface {
+    /// True if it is D r + t₀ whatever happens: it has no states.
+    pub fn is_linear(&self) -> bool {
+        self.states.is_empty()
+    }
+
     /// Binds the statement of an interface on its geometry.
     pub(super) fn new(
         scene: &Scene,
@@ -35,11 +65,23 @@ impl BoundInterface {
     ) -> Result<BoundInterface> {
         let stated = plan.stated;
         let gaps = Gaps::new(stated.initial_gap, operator);
-        let initial = InitialTraction::bind(scene, plan.entry, stated, operator, stresses)?;
-        let states = initial::states(scene, plan.entry, stated, &laws, &initial, &gaps, operator)?;
+        let parts = Parts::of(scene, operator)?;
+        let initial = match parts {
+            Parts::Absent => InitialTraction::Uniform(Local::zeros()),
+            _ => InitialTraction::bind(scene, plan.entry, stated, operator, stresses)?,
+        };
+        let states = |initial: &InitialTraction| {
+            initial::states(scene, plan.entry, stated, &laws, initial, &gaps, operator)
+        };
+        let has_states = !laws.kind().is_linear() || parts != Parts::Stay;
+        let anew = match parts {
+            Parts::Stay => None,
+            _ => Some(states(&InitialTraction::Uniform(Local::zeros()))?),
+        };
         Ok(BoundInterface {
+            states: if has_states { states(&initial)? } else { Vec::new() },
             initial,
-            states,
+            anew,
             integration: Integration::Tolerance(stated.law_tolerance),
             stiff: stiffness::is_stiff(scene, stated, model, operator, &laws),
             laws,

@@ -90,6 +90,15 @@ impl BoundLoad {
         }
     }
 
+    /// Number of the subdomain that it acts on.
+    pub(super) fn subdomain(&self) -> usize {
+        match self.target {
+            LoadTarget::Edges { subdomain, .. }
+            | LoadTarget::Points { subdomain, .. }
+            | LoadTarget::BoundSubdomain { subdomain, .. } => subdomain,
+        }
+    }
+
     /// True if load_factor occurs in it, so that it does not ramp.
     pub(super) fn follows_load_factor(&self) -> bool {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))

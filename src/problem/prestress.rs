@@ -6,7 +6,7 @@ use super::quantity::Quantity;
 use crate::assembly::Model;
 use crate::continuum::PointField;
 use crate::error::{Error, Result};
-use crate::scene::{FormulaPlace, Ground, InitialStress, Plane, Scene, Step, Value};
+use crate::scene::{FormulaPlace, Ground, InitialStress, Plane, Scene, Stage, Step, Value};
 use crate::shape::Ends;
 
 /// What a body has beyond the stresses of its strains, at the start and at the end of a step, between which it is affine.
@@ -125,6 +125,8 @@ struct InForce {
     /// Strains of temperature, and those given.
     warmed: Option<Arc<PointField>>,
     given: Option<Arc<PointField>>,
+    /// Strains from which those of a part count: those in force when it came.
+    reference: Option<PointField>,
     /// σ_p and its forces as they were last.
     last: Option<(Arc<PointField>, Arc<Vec<f64>>)>,
 }
@@ -166,10 +168,15 @@ impl AllInForce {
         model: &Model,
         index: &str,
         step: &Step,
+        stage: Option<&Stage>,
     ) -> Result<Vec<Option<Arc<Prestress>>>> {
         let mut all = Vec::new();
         for (b, own) in self.0.iter_mut().enumerate() {
-            all.push(own.step(scene, model, index, step, b)?.map(Arc::new));
+            if let Some(stage) = stage {
+                own.stage(stage, b);
+            }
+            let is_there = stage.is_none_or(|stage| stage.present[b]);
+            all.push(own.step(scene, model, index, step, b, is_there)?.map(Arc::new));
         }
         if all.iter().all(Option::is_none) {
             all.clear();
@@ -179,6 +186,19 @@ impl AllInForce {
 }
 
 impl InForce {
+    /// A part that has gone has nothing any more, and one that comes is free of stress as it is then.
+    fn stage(&mut self, stage: &Stage, b: usize) {
+        if stage.present[b] && !stage.activated.contains(&b) {
+            return;
+        }
+        let none = |field: &PointField| field.map(|_| [0.0; 4]);
+        if let Some((stress, force)) = &self.last {
+            self.last = Some((Arc::new(none(stress)), Arc::new(vec![0.0; force.len()])));
+        }
+        self.initial = self.initial.as_ref().map(|initial| Arc::new(none(initial)));
+        self.reference = self.in_force();
+    }
+
     fn step(
         &mut self,
         scene: &Scene,
@@ -186,6 +206,7 @@ impl InForce {
         index: &str,
         step: &Step,
         b: usize,
+        is_there: bool,
     ) -> Result<Option<Prestress>> {
         let subdomain = &model.subdomains[b];
         let (mesh, elasticity) = (&subdomain.mesh, subdomain.elasticity);
@@ -221,7 +242,9 @@ impl InForce {
         }
         let changes =
             step.temperature.contains_key(&subdomain.name) || step.strain.contains_key(&subdomain.name);
-        if changes {
+        if changes && !is_there {
+            self.reference = self.in_force();
+        } else if changes {
             let eigen = self.strain().map(|strain| strain.map(|strain| elasticity.eigenstress(strain)));
             let stress = match (eigen, &self.initial) {
                 (Some(eigen), Some(initial)) => eigen.plus(initial, 1.0),
@@ -257,12 +280,20 @@ impl InForce {
         Ok(Some(Prestress { stress, force, energy, temperature, strain }))
     }
 
-    /// ε* in force.
-    fn strain(&self) -> Option<PointField> {
+    /// ε* that the scene states.
+    fn in_force(&self) -> Option<PointField> {
         match (&self.warmed, &self.given) {
             (Some(warmed), Some(given)) => Some(warmed.plus(given, 1.0)),
             (Some(one), None) | (None, Some(one)) => Some((**one).clone()),
             (None, None) => None,
+        }
+    }
+
+    /// The same as the part counts it.
+    fn strain(&self) -> Option<PointField> {
+        match &self.reference {
+            Some(reference) => self.in_force().map(|all| all.plus(reference, -1.0)),
+            None => self.in_force(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{BoundInterface, groups};
 use crate::assembly::{InterfaceOperator, Model};
+use crate::coupling::LawPoint;
 use crate::error::{Result, name_help};
 use crate::law::{self, Local};
 use crate::scene::Scene;
@@ -25,6 +26,11 @@ pub enum BoundProbe {
         interface: usize,
         /// n or t.
         component: usize,
+    },
+    /// Moment of an interface's traction about its middle.
+    Moment {
+        /// Number of the interface.
+        interface: usize,
     },
     /// Weighted sum of displacements: dofs and weights.
     Displacement(Vec<(usize, f64)>),
@@ -93,6 +99,7 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
                 Probe::Resultant { interface, component } => {
                     BoundProbe::Resultant { interface: number(&interface)?, component }
                 }
+                Probe::Moment { interface } => BoundProbe::Moment { interface: number(&interface)? },
                 Probe::Displacement { group, direction } => {
                     let mean = groups::mean(scene, model, &path, &group)?;
                     let dof = |node: usize| model.components * node + direction.component();
@@ -141,6 +148,18 @@ impl BoundProbe {
                 let points = &model.interfaces[*interface].coupling.points;
                 let tractions = &input.tractions[*interface];
                 points.iter().zip(tractions).map(|(p, t)| model.thickness * p.weight * t[*component]).sum()
+            }
+            BoundProbe::Moment { interface } => {
+                let points = &model.interfaces[*interface].coupling.points;
+                let length: f64 = points.iter().map(|point| point.weight).sum();
+                let mean = |d: usize| points.iter().map(|p| p.weight * p.position[d]).sum::<f64>() / length;
+                let middle = [mean(0), mean(1)];
+                let turns = |(p, t): (&LawPoint, &Local)| {
+                    let [x, y] = [0, 1].map(|d| p.position[d] - middle[d]);
+                    let [fx, fy] = [0, 1].map(|d| t[0] * p.rotation[0][d] + t[1] * p.rotation[1][d]);
+                    model.thickness * p.weight * (x * fy - y * fx)
+                };
+                points.iter().zip(&input.tractions[*interface]).map(turns).sum()
             }
             BoundProbe::Displacement(weights) => {
                 weights.iter().map(|&(dof, weight)| weight * input.u[dof]).sum()

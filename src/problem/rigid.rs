@@ -89,7 +89,11 @@ pub(super) fn check_free_subdomains(
         }
     }
     let mut u = vec![0.0; model.dofs()];
+    let is_there = |b: usize| step.stage.as_ref().is_none_or(|stage| stage.present[b]);
     for (interface, BoundInterface { laws, .. }) in model.interfaces.iter().zip(interfaces) {
+        if !interface.subdomains.iter().all(|&b| is_there(b)) {
+            continue;
+        }
         let mut nodes = interface.coupling.sides.each_ref().map(|side| side.nodes.as_slice()).concat();
         nodes.sort_unstable();
         nodes.dedup(); // both sides of a slit share its tips

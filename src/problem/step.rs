@@ -11,7 +11,7 @@ use super::quantity::Quantity;
 use super::{Prestress, prestress};
 use crate::assembly::Model;
 use crate::error::Result;
-use crate::scene::{Control, FormulaPlace};
+use crate::scene::{Control, FormulaPlace, Stage};
 
 /// One step, bound.
 #[derive(Debug, Clone)]
@@ -20,6 +20,8 @@ pub struct BoundStep {
     pub number: usize,
     /// Name of the step.
     pub name: String,
+    /// Parts that come and go in it; none if all are there, always.
+    pub stage: Option<Stage>,
     /// Number of increments.
     pub increments: usize,
     /// Control from increment to increment.

@@ -12,7 +12,7 @@ use crate::assembly::Model;
 use crate::coupling::Support;
 use crate::error::Result;
 use crate::mesh::Group;
-use crate::scene::{Direction, FormulaPlace, Scene, Step, Value, Variable};
+use crate::scene::{Direction, FormulaPlace, Scene, Stage, Step, Value, Variable};
 
 /// Two groups agree about a shared point if their displacements differ by less. Of the larger group's largest.
 const AGREE: f64 = 1e-12;
@@ -26,6 +26,19 @@ pub(super) struct Supports {
 }
 
 impl Supports {
+    /// Keeps parts that are not there at rest where nothing is: on their interfaces, all of them if they have none.
+    pub(super) fn take_away(&mut self, model: &Model, stage: &Stage) {
+        let joined = model.joined();
+        for b in (0..model.subdomains.len()).filter(|&b| !stage.present[b]) {
+            let dofs = model.dofs_of(b);
+            self.prescribed[dofs.clone()].fill(0.0);
+            self.frozen[dofs.clone()].fill(false);
+            let on_interface = |dof: usize| joined[dof / model.components];
+            let any = dofs.clone().any(on_interface);
+            dofs.filter(|&dof| !any || on_interface(dof)).for_each(|dof| self.constrained[dof] = true);
+        }
+    }
+
     /// None, of so many dofs.
     pub(super) fn none(n: usize) -> Supports {
         Supports { constrained: vec![false; n], prescribed: vec![0.0; n], frozen: vec![false; n] }

@@ -27,6 +27,7 @@ impl Scene {
         for (i, step) in self.steps.iter().enumerate() {
             self.check_step(&i.to_string(), step)?;
         }
+        self.check_stages()?;
         for (i, name) in self.density.iter().enumerate() {
             let (subdomain, parameter) = split_group(name);
             if parameter.is_none() || !self.subdomains.contains_key(subdomain) {
@@ -198,6 +199,50 @@ impl Scene {
                     format!("\"{group}\" is not a subdomain"),
                     "name the subdomain alone",
                 ));
+            }
+        }
+        Ok(())
+    }
+
+    /// What is not there is neither held nor loaded, and has no stress at the start.
+    fn check_stages(&self) -> Result<()> {
+        let stages = self.stages()?;
+        if stages.is_empty() {
+            return Ok(());
+        }
+        for ((name, subdomain), there) in self.subdomains.iter().zip(self.there_at_first()?) {
+            if subdomain.initial_stress.is_some() && !there {
+                let what = format!("\"{name}\" is not there before it is activated, free of stress");
+                return Err(self.source.error_at(
+                    &["subdomains", name, "initial_stress"],
+                    what,
+                    "leave it out",
+                ));
+            }
+        }
+        for (number, (step, stage)) in self.steps.iter().zip(&stages).enumerate() {
+            for (key, groups) in [
+                ("fix", step.fix.keys().collect::<Vec<_>>()),
+                ("displace", step.displace.keys().collect()),
+                ("hold", step.hold.keys().collect()),
+                ("release", step.release.keys().collect()),
+                ("load", step.load.keys().collect()),
+                ("body_force", step.body_force.keys().collect()),
+            ] {
+                for group in groups {
+                    let subdomain = split_group(group).0;
+                    let index = self.subdomains.get_index_of(subdomain);
+                    if index.is_some_and(|b| !stage.present[b]) {
+                        let what = format!("\"{subdomain}\" is not there in this step");
+                        let help =
+                            "activate it before, or leave the key out: what is in force comes back with it";
+                        return Err(self.source.error_at(
+                            &["steps", &number.to_string(), key, group],
+                            what,
+                            help,
+                        ));
+                    }
+                }
             }
         }
         Ok(())

@@ -1,12 +1,10 @@
 //! Validation of interfaces beyond their types: two sides on two subdomains, or two patterns that match some.
 
-use wildmatch::WildMatch;
-
-use super::named::{check_group, check_name};
+use super::named::{check_group, check_name, matching};
 use super::{
     Control, CouplingKind, Grid, InitialGap, Interface, OneOrMany, Scene, Step, Variable, split_group,
 };
-use crate::error::{Result, name_help};
+use crate::error::Result;
 
 impl Scene {
     /// Refuses the first thing that is wrong with an interface.
@@ -159,13 +157,7 @@ impl Scene {
 
     fn check_patterns(&self, name: &str, patterns: &[String; 2]) -> Result<()> {
         for (i, pattern) in patterns.iter().enumerate() {
-            let matcher = WildMatch::new(pattern);
-            if !self.subdomains.keys().any(|subdomain| matcher.matches(subdomain)) {
-                let path = ["interfaces", name, "between", &i.to_string()];
-                let what = format!("no subdomain is called like \"{pattern}\"");
-                let help = name_help(pattern, self.subdomains.keys().map(String::as_str));
-                return Err(self.source.error_at(&path, what, help));
-            }
+            matching(self, &["interfaces", name, "between", &i.to_string()], pattern)?;
         }
         Ok(())
     }

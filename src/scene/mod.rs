@@ -20,6 +20,7 @@ mod schema;
 mod set;
 mod solution;
 mod source;
+mod stages;
 mod stated_law;
 mod value;
 
@@ -31,6 +32,7 @@ pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
+pub use stages::Stage;
 pub use stated_law::StatedLaw;
 pub use value::Value;
 
@@ -164,6 +166,14 @@ pub struct Step {
     /// Acceleration (x, y) that acts on every density [length / time²], ramped like a load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[Value; 2]>,
+    /// Subdomains that come in this step, names or patterns with `*` and `?`: free of stress, in the place to which their
+    /// neighbours have moved. One that is first mentioned here is absent until then.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub activate: Vec<String>,
+    /// Subdomains that go at the start of this step, by name or pattern, with the share of their forces on their neighbours that
+    /// is let go over the step: 1 is all.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub deactivate: IndexMap<String, f64>,
     /// Difference of temperature by subdomain, a number or a formula in x and y, ramped from its last value: with the
     /// `expansion` of the material it strains all three directions [temperature].
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]

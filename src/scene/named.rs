@@ -1,5 +1,7 @@
 //! Names of a scene: those that become files, and those of groups.
 
+use wildmatch::WildMatch;
+
 use super::{Scene, split_group};
 use crate::error::{Result, name_help};
 
@@ -21,4 +23,17 @@ pub(super) fn check_group(scene: &Scene, path: &[&str], group: &str) -> Result<(
     }
     let help = name_help(subdomain, scene.subdomains.keys().map(String::as_str));
     Err(scene.source.error_at(path, format!("no subdomain \"{subdomain}\""), help))
+}
+
+/// Numbers of the subdomains whose names fit a pattern, of which there must be one.
+pub(super) fn matching(scene: &Scene, path: &[&str], pattern: &str) -> Result<Vec<usize>> {
+    let matcher = WildMatch::new(pattern);
+    let names = scene.subdomains.keys().enumerate();
+    let found: Vec<usize> = names.filter(|(_, name)| matcher.matches(name)).map(|(b, _)| b).collect();
+    if found.is_empty() {
+        let what = format!("no subdomain is called like \"{pattern}\"");
+        let help = name_help(pattern, scene.subdomains.keys().map(String::as_str));
+        return Err(scene.source.error_at(path, what, help));
+    }
+    Ok(found)
 }

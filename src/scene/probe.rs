@@ -1,7 +1,7 @@
 //! Probes: what a column of history.csv asks for.
 //!
 //! `interface.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
-//! group, `interface.resultant_t` the force across an interface, `energy.stored`, `energy.dissipated`,
+//! group, `interface.resultant_t` the force across an interface, `interface.moment` that about its middle, `energy.stored`, `energy.dissipated`,
 //! `energy.released`, `energy.viscous`, `work.external`.
 
 use super::{Direction, JOINED, Scene};
@@ -26,6 +26,11 @@ pub enum Probe {
         interface: String,
         /// Component: n or t.
         component: usize,
+    },
+    /// Moment of the traction across an interface about its middle, positive where tension grows along it [force × length].
+    Moment {
+        /// The interface.
+        interface: String,
     },
     /// Mean displacement of a group [length].
     Displacement {
@@ -138,8 +143,11 @@ fn interface(interface: &str, field: &str) -> std::result::Result<Probe, (String
     if let (Some(component), None) = (component, fraction) {
         return Ok(Probe::Resultant { interface: interface.into(), component });
     }
+    if (name, fraction) == ("moment", None) {
+        return Ok(Probe::Moment { interface: interface.into() });
+    }
     let Some((_, field)) = joint_fields().find(|(known, _)| *known == name) else {
-        let names = joint_fields().map(|(name, _)| name).chain(["resultant_n", "resultant_t"]);
+        let names = joint_fields().map(|(name, _)| name).chain(["resultant_n", "resultant_t", "moment"]);
         return Err((format!("no field \"{name}\""), name_help(name, names)));
     };
     let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));

@@ -10,7 +10,7 @@
 //! straight. Where it bends, both numbers fall with the third power of the part; where a part jumps to another branch, the
 //! bend stays.
 
-use super::laws::Laws;
+use super::laws::{Laws, Old};
 use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
 use crate::history::converged::{Converged, PointResponse};
@@ -44,7 +44,7 @@ fn is_straight(law: &Law, old: &law::State, answer: &PointResponse) -> bool {
 /// The estimate for what was found last, after a growth of the load factor, under the load in the middle; none if the way there is straight.
 pub(super) fn error_of<F: Form>(
     view: &View<F>,
-    old: &[Vec<law::State>],
+    old: Old,
     found: &Converged,
     way: Way,
     advance: f64,
@@ -52,7 +52,7 @@ pub(super) fn error_of<F: Form>(
     let problem = view.problem;
     let straight = found.interfaces.iter().all(|of| {
         let laws = &problem.interfaces[of.interface].laws;
-        let mut points = old[of.interface].iter().zip(&of.memory).enumerate();
+        let mut points = old.states[of.interface].iter().zip(&of.memory).enumerate();
         points.all(|(p, (old, new))| is_straight(laws.at(p), old, new))
     });
     if straight {
@@ -71,7 +71,7 @@ pub(super) fn error_of<F: Form>(
 
 fn over_the_middle<F: Form>(
     view: &View<F>,
-    old: &[Vec<law::State>],
+    old: Old,
     found: &Converged,
     way: Way,
     advance: f64,
@@ -93,17 +93,17 @@ fn over_the_middle<F: Form>(
     let [halfway, corrected] = corrected(form, &laws, &x, &target, across).ok()?;
     // a point that changes its mode in the second half leads the correction astray
     let better = if corrected.residuals[0] < halfway.residuals[0] { &corrected } else { &halfway };
-    let mut states = old.to_vec();
+    let mut states = old.states.to_vec();
     for (&k, memory) in form.active().iter().zip(&better.memory) {
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
-    let onwards = Laws::alone(problem, &states, 0.5 * advance);
+    let onwards = Laws::alone(problem, Old { states: &states, ..old }, 0.5 * advance);
     let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
     for (a, of) in found.interfaces.iter().enumerate() {
         let points = &problem.model.interfaces[of.interface].coupling.points;
-        for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
+        for (p, (old, new)) in old.states[of.interface].iter().zip(&of.memory).enumerate() {
             let area = problem.model.thickness * points[p].weight;
             let (there, here) = (&end.memory[a][p], &better.memory[a][p]);
             squares += points[p].weight * (there.state.traction - new.state.traction).norm_squared();

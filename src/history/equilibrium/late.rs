@@ -1,21 +1,21 @@
 //! Points of softening laws that crack in a part after others, and the first that does.
 
 use super::ON;
-use super::laws::Laws;
+use super::laws::{Laws, Old};
 use super::view::{ViewMut, target};
 use crate::history::converged::Converged;
 use crate::history::loading::StepLoad;
-use crate::law::{self, local};
+use crate::law::local;
 use crate::problem::Problem;
 use crate::solver::{Form, NewtonSettings, along, ask};
 
 /// Intact points of softening laws that crack in a part after others do; none if all crack at once.
-pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged) -> Option<Vec<Vec<bool>>> {
-    let mut fractions: Vec<Vec<f64>> = old.iter().map(|states| vec![f64::NAN; states.len()]).collect();
+pub(super) fn late(problem: &Problem, old: Old, found: &Converged) -> Option<Vec<Vec<bool>>> {
+    let mut fractions: Vec<Vec<f64>> = old.states.iter().map(|states| vec![f64::NAN; states.len()]).collect();
     let mut first = 1.0_f64;
     for of in &found.interfaces {
         let laws = &problem.interfaces[of.interface].laws;
-        for (p, (old, new)) in old[of.interface].iter().zip(&of.memory).enumerate() {
+        for (p, (old, new)) in old.states[of.interface].iter().zip(&of.memory).enumerate() {
             if new.dissipation > 0.0
                 && let Some(fraction) = laws.at(p).onset_or_on(new.state.jump, old)
             {
@@ -33,7 +33,7 @@ pub(super) fn late(problem: &Problem, old: &[Vec<law::State>], found: &Converged
 /// They are held elastic, the equilibrium is corrected once, and some of them must be beyond its strength.
 pub(super) fn crack<F: Form>(
     view: &mut ViewMut<F>,
-    old: &[Vec<law::State>],
+    old: Old,
     found: &Converged,
     end: &StepLoad,
     settings: NewtonSettings,
@@ -49,9 +49,10 @@ pub(super) fn crack<F: Form>(
     let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        let points = jumps.chunks_exact(problem.model.components).zip(&old[k]).zip(&intact[k]);
-        for (p, ((jump, old), intact)) in points.enumerate() {
-            if *intact && problem.interfaces[k].laws.at(p).onset(local(jump), old).is_some() {
+        let points = jumps.chunks_exact(problem.model.components).zip(&old.states[k]).zip(&intact[k]);
+        for (p, ((jump, state), intact)) in points.enumerate() {
+            let jump = old.presence.counted(k, p, local(jump));
+            if *intact && problem.interfaces[k].laws.at(p).onset(jump, state).is_some() {
                 return Some(true);
             }
         }
@@ -63,7 +64,7 @@ pub(super) fn crack<F: Form>(
 /// the tangent.
 pub(super) fn first_onset<F: Form>(
     view: &mut ViewMut<F>,
-    old: &[Vec<law::State>],
+    old: Old,
     [load, now]: [&StepLoad; 2],
     end: Option<Vec<f64>>,
     settings: NewtonSettings,
@@ -82,9 +83,14 @@ pub(super) fn first_onset<F: Form>(
     };
     let mut first = 1.0_f64;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&end)) {
+        if old.presence.is_absent(k) {
+            continue;
+        }
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
-        for (p, (jump, old)) in jumps.chunks_exact(problem.model.components).zip(&old[k]).enumerate() {
-            let fraction = problem.interfaces[k].laws.at(p).onset(local(jump), old);
+        for (p, (jump, state)) in jumps.chunks_exact(problem.model.components).zip(&old.states[k]).enumerate()
+        {
+            let jump = old.presence.counted(k, p, local(jump));
+            let fraction = problem.interfaces[k].laws.at(p).onset(jump, state);
             first = fraction.filter(|fraction| *fraction > ON).map_or(first, |fraction| first.min(fraction));
         }
     }

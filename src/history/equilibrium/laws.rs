@@ -3,11 +3,26 @@
 
 use crate::history::converged::PointResponse;
 use crate::law::{self, Local, local, write_diagonal, write_rows};
+use crate::output::{Presence, Snapshot};
 use crate::problem::Problem;
 use crate::solver::Respond;
 
 /// A viscosity above this part of the stiffness makes tiny steps.
 const STIFF: f64 = 0.1;
+
+/// States of the law points from which a part starts, and which interfaces are there.
+#[derive(Clone, Copy)]
+pub(in crate::history) struct Old<'a> {
+    pub(in crate::history) states: &'a [Vec<law::State>],
+    pub(in crate::history) presence: &'a Presence,
+}
+
+impl<'a> Old<'a> {
+    /// Those of a state that is written.
+    pub(in crate::history) fn of(snapshot: &'a Snapshot) -> Old<'a> {
+        Old { states: &snapshot.states, presence: &snapshot.presence }
+    }
+}
 
 /// The laws from given states.
 ///
@@ -17,7 +32,7 @@ const STIFF: f64 = 0.1;
 #[derive(Clone, Copy)]
 pub(in crate::history) struct Laws<'a> {
     pub(in crate::history) problem: &'a Problem,
-    pub(in crate::history) old: &'a [Vec<law::State>],
+    pub(in crate::history) old: Old<'a>,
     /// c [stress / length], if there is one.
     pub(in crate::history) viscosity: Option<f64>,
     /// Friction lags wherever it is steep, not only where its slope has no bound.
@@ -30,11 +45,7 @@ pub(in crate::history) struct Laws<'a> {
 
 impl<'a> Laws<'a> {
     /// The laws alone.
-    pub(in crate::history) fn alone(
-        problem: &'a Problem,
-        old: &'a [Vec<law::State>],
-        advance: f64,
-    ) -> Laws<'a> {
+    pub(in crate::history) fn alone(problem: &'a Problem, old: Old<'a>, advance: f64) -> Laws<'a> {
         Laws { problem, old, viscosity: None, lags: false, advance, intact: None }
     }
 
@@ -46,7 +57,7 @@ impl<'a> Laws<'a> {
         jump: Local,
     ) -> Result<law::Response, String> {
         let law = self.problem.interfaces[interface].laws.at(point);
-        let old = &self.old[interface][point];
+        let old = &self.old.states[interface][point];
         let integration = self.problem.interfaces[interface].integration;
         let answer = match self.viscosity {
             _ if law.is_viscous() => law.respond_over(jump, old, integration, self.advance),
@@ -70,24 +81,30 @@ impl Respond for Laws<'_> {
     ) -> Result<PointResponse, String> {
         let law = self.problem.interfaces[interface].laws.at(point);
         let components = jump.len();
-        if law.is_linear() {
+        if self.old.states[interface].is_empty() {
             let k = law.elastic_stiffness();
             (0..components).for_each(|i| traction[i] = k[i] * jump[i]); // what it starts with is a load
             write_diagonal(&k[..components], stiffness);
             return Ok(PointResponse::default());
         }
+        if self.old.presence.is_absent(interface) {
+            (traction.fill(0.0), stiffness.fill(0.0));
+            let state = law::State { traction: Local::zeros(), ..self.old.states[interface][point] };
+            return Ok(PointResponse { state, ..PointResponse::default() });
+        }
+        let jump = self.old.presence.counted(interface, point, local(jump));
         if self.intact.is_some_and(|intact| intact[interface][point]) {
-            let (held, k) = law.held(local(jump), &self.old[interface][point]);
+            let (held, k) = law.held(jump, &self.old.states[interface][point]);
             traction.copy_from_slice(&held.as_slice()[..components]);
             write_diagonal(&k[..components], stiffness);
             return Ok(PointResponse::default());
         }
-        let answer = self.own(interface, point, local(jump))?;
+        let answer = self.own(interface, point, jump)?;
         traction.copy_from_slice(&answer.traction.as_slice()[..components]);
         write_rows(&answer.stiffness, components, stiffness);
         let mut viscous = Local::zeros();
         if let Some(c) = self.viscosity {
-            let old = &self.old[interface][point].jump;
+            let old = &self.old.states[interface][point].jump;
             for i in 0..components {
                 viscous[i] = c * (jump[i] - old[i]);
                 traction[i] += viscous[i];

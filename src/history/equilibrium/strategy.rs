@@ -30,7 +30,7 @@ pub struct Operations {
 /// Interfaces that are not elastic.
 pub(in crate::history) fn active(problem: &Problem) -> Vec<usize> {
     let interfaces = problem.interfaces.iter().enumerate();
-    interfaces.filter(|(_, interface)| !interface.laws.kind().is_linear()).map(|(k, _)| k).collect()
+    interfaces.filter(|(_, interface)| !interface.is_linear()).map(|(k, _)| k).collect()
 }
 
 /// Interfaces whose jumps are unknowns of the condensed form: those that are not elastic or stiff. None if the scene is linear

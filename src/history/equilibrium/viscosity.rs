@@ -24,7 +24,7 @@ pub(super) fn account(
         let points = &problem.model.interfaces[k].coupling.points;
         let is_watched = problem.interfaces[k].laws.all().iter().any(|law| law.dilates() || law.closes());
         let mut now = Vec::with_capacity(components * points.len());
-        for (p, (old, answer)) in laws.old[k].iter().zip(&iterate.memory[a]).enumerate() {
+        for (p, (old, answer)) in laws.old.states[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next
             (0..components)
                 .for_each(|i| now.push(iterate.tractions[a][components * p + i] - answer.state.traction[i]));
