@@ -6,8 +6,8 @@
 //! energy  ∫ ½ (ε − ε*)ᵀ C (ε − ε*) + σ₀ : ε = ½ uᵀ K u + p · u + ½ ∫ ε*ᵀ C ε*        ε*, C in three directions
 //! ```
 //!
-//! All of them are known at the points of the stiffness rule, so that a stress in equilibrium, linear in the place, makes nodal
-//! forces that are those of its loads to rounding.
+//! All of them are known at the points of the stiffness rule: strains of a free body make no stress then, to rounding. Forces of an
+//! initial stress are integrated as loads are, so that one in equilibrium needs no other.
 
 use super::Elasticity;
 use super::element::{cell_coordinates, gradients};
@@ -84,6 +84,32 @@ impl PointField {
             }
         });
         force
+    }
+
+    /// Nodal forces h ∫ Bᵀ σ dA of a stress by its value at a place, with the rule of loads: exact in curved cells too if the
+    /// stress is constant.
+    pub fn forces_of<E>(
+        mesh: &Mesh,
+        thickness: f64,
+        mut at: impl FnMut([f64; 3]) -> Result<[f64; 4], E>,
+    ) -> Result<Vec<f64>, E> {
+        let mut force = vec![0.0; 2 * mesh.points.len()];
+        for c in 0..mesh.cells.len() {
+            let (shape, nodes, x) = (mesh.cells.shapes[c], mesh.cells.nodes(c), cell_coordinates(mesh, c));
+            let origin = in_plane(mesh.points[nodes[0]]);
+            for &[xi, eta, weight] in shape.field_rule() {
+                let values = shape.values(xi, eta);
+                let (g, det) = gradients(shape, &x, &values);
+                let place = [0, 1].map(|d| (0..shape.nodes()).map(|i| values.n[i] * x[i][d]).sum());
+                let [x, y] = plus(origin, place);
+                let [xx, yy, _, xy] = at([x, y, 0.0])?;
+                for (&node, g) in nodes.iter().zip(g) {
+                    force[2 * node] += thickness * weight * det * (g[0] * xx + g[1] * xy);
+                    force[2 * node + 1] += thickness * weight * det * (g[1] * yy + g[0] * xy);
+                }
+            }
+        }
+        Ok(force)
     }
 
     /// h ∫ a : b dA of a stress and a tensor strain; the shear counts twice.

@@ -16,6 +16,8 @@ const SUMS: f64 = 3.0;
 /// Their sum over a step stays below so many times the tolerance: a part may have this share of what is left of that.
 const BUDGET: f64 = 4.5;
 const SHARE: f64 = 0.25;
+/// Part of the most that was carried against which tractions count where nothing is.
+const AT_REST: f64 = 1e-3;
 /// Smallest scale of the tractions [stress × √length].
 const FLOOR: f64 = 1e-12;
 
@@ -41,7 +43,8 @@ pub(super) fn judge(
     let Estimate { traction, work, passed, bend, cracked, late, .. } = estimate;
     let tolerance = analysis.problem.solution.path_tolerance;
     let spent = dissipation(analysis.problem, found);
-    let carried = most.max(carried_after(analysis.problem, found).sqrt()).max(FLOOR);
+    let carried = most.max(carried_after(analysis.problem, found).sqrt());
+    let carried = carried.max(AT_REST * analysis.state.most_carried).max(FLOOR);
     let so_far = analysis.state.largest_energy().max(analysis.state.dissipated + spent);
     let energy = energy.max(passed).max(so_far).max(f64::MIN_POSITIVE);
     let energies = estimate.dissipation.abs().max(SUMS * work.abs()) / energy;

@@ -37,6 +37,9 @@ pub(super) fn settle(analysis: &mut Analysis, step: &BoundStep, start: &Start) -
     }
     let load = start.at(0.0)?;
     let LoadForces { force, released, .. } = load.forces();
+    if let Some(prestress) = step.prestress_forces(&problem.model, 0.0) {
+        tractions.iter_mut().zip(prestress).for_each(|(all, p)| *all += p);
+    }
     // forces of what is not in equilibrium at the start, on free dofs
     let left: Vec<f64> = (0..tractions.len())
         .map(|i| if step.constrained[i] { 0.0 } else { force[i] + released[i] - tractions[i] })

@@ -12,7 +12,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::converged::{Converged, InterfaceResponse};
-use super::energy::{across, work_to};
+use super::energy::{across, carried, work_to};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use super::stages::{HeldForces, presence_at_first};
 use crate::assembly::InterfaceOperator;
@@ -54,6 +54,8 @@ pub struct ModelState {
     pub(super) at: (usize, f64),
     /// Forces of parts that have gone.
     pub(super) held: Vec<HeldForces>,
+    /// The most that interfaces have carried, √(Σ w |t|²) [stress × √length].
+    pub(super) most_carried: f64,
 }
 
 impl ModelState {
@@ -86,6 +88,7 @@ impl ModelState {
             found: vec![false; problem.interfaces.len()],
             at: (0, 0.0),
             held: Vec::new(),
+            most_carried: 0.0,
         };
         state.hold(problem);
         state.recover(problem);
@@ -142,6 +145,7 @@ impl ModelState {
     pub(super) fn accept(&mut self, problem: &Problem, found: Converged, load: StepLoad) {
         let Converged { solution, mut ledger, interfaces, released, residuals, .. } = found;
         let at = (load.step(), load.load_factor);
+        self.most_carried = self.most_carried.max(carried(problem, &self.snapshot).sqrt());
         self.released += released;
         self.work += solution.as_ref().map_or(0.0, |solution| self.warmed(problem, &solution.u, at));
         self.at = at;

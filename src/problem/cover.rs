@@ -22,14 +22,31 @@ struct EdgeShare {
     to: f64,
 }
 
-/// Refuses a place that two interfaces join; warns of sides, named by the scene, that are joined in part.
-pub(super) fn shares(scene: &Scene, model: &Model, plans: &[PlannedInterface]) -> Result<Vec<Warning>> {
+/// Refuses a place that two interfaces join at one of the times; warns of sides, named by the scene, that are joined in part.
+pub(super) fn shares(
+    scene: &Scene,
+    model: &Model,
+    plans: &[PlannedInterface],
+    times: &[Vec<bool>],
+) -> Result<Vec<Warning>> {
     let edges = taken(model);
+    let together = |one: usize, two: usize| {
+        let of = |interface: usize| model.interfaces[interface].subdomains;
+        times.iter().any(|there| of(one).into_iter().chain(of(two)).all(|b| there[b]))
+    };
     for (nodes, of_edge) in &edges {
-        let twice = of_edge
-            .windows(2)
-            .find(|pair| pair[0].interface != pair[1].interface && pair[1].from < pair[0].to - MEETING);
-        if let Some([one, two]) = twice {
+        // where parts come and go others may lie between
+        let back = if times.len() > 1 { of_edge.len() } else { 1 };
+        let twice = (1..of_edge.len()).find_map(|k| {
+            let two = &of_edge[k];
+            let meets = |one: &&EdgeShare| {
+                one.interface != two.interface
+                    && two.from < one.to - MEETING
+                    && together(one.interface, two.interface)
+            };
+            of_edge[k.saturating_sub(back)..k].iter().find(meets).map(|one| (one, two))
+        });
+        if let Some((one, two)) = twice {
             let (first, second) = (one.interface.min(two.interface), one.interface.max(two.interface));
             let subdomain = &model.subdomains
                 [model.subdomains.partition_point(|subdomain| subdomain.first_node <= nodes[0]) - 1];

@@ -44,13 +44,17 @@ pub(super) fn tractions(
 
 /// Warnings of interfaces whose sides do not agree, or not with what the scene states there.
 pub(super) fn disagreements(
+    scene: &Scene,
     model: &Model,
     interfaces: &[BoundInterface],
     plans: &[PlannedInterface],
     stresses: &[Option<StressAt>],
 ) -> Result<Vec<Warning>> {
-    let mut warnings = Vec::new();
+    let (mut warnings, there) = (Vec::new(), scene.there_at_first()?);
     for ((operator, bound), plan) in model.interfaces.iter().zip(interfaces).zip(plans) {
+        if operator.subdomains.iter().any(|&b| !there[b]) {
+            continue;
+        }
         let Some(sides) = tractions(stresses, operator)? else { continue };
         let largest = sides.iter().flatten().map(|t| t.amax()).fold(0.0, f64::max);
         let mut tell = |size: &dyn Fn(usize) -> f64, what: &str, help: &str| {

@@ -103,7 +103,7 @@ impl Problem {
     pub fn bind_joined(scene: &Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) -> Result<Problem> {
         let Joined { model, interfaces, plans, connectivity, stresses, mut warnings } =
             join(scene, meshes, known)?;
-        warnings.extend(in_situ::disagreements(&model, &interfaces, &plans, &stresses)?);
+        warnings.extend(in_situ::disagreements(scene, &model, &interfaces, &plans, &stresses)?);
         let (steps, reactions, unbalanced) = history::steps(scene, &model, &interfaces, &stresses)?;
         warnings.extend(unbalanced);
         warnings.extend(idle::loads(scene, &model)?);
@@ -137,12 +137,12 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
         subdomains: subdomains(scene, meshes),
         interfaces: Vec::new(),
     };
-    let stresses = StressAt::all(scene, &model);
+    let (stresses, times) = (StressAt::all(scene, &model), scene.times()?);
     let mut warnings = warnings::locking(&model.subdomains);
     let mut interfaces = Vec::new();
     let opened = within::open(scene, &mut model)?;
     let plans = plan::plans(scene, &model, opened)?;
-    let (supports, junctions) = (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans));
+    let (supports, junctions) = (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans, &times));
     let around = Surroundings { supports: &supports, junctions: &junctions };
     for (k, plan) in plans.iter().enumerate() {
         let operator = known.get(k).map_or_else(|| plan.join(&model, around), |known| Ok(known.clone()))?;
@@ -152,8 +152,8 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
         interfaces.push(BoundInterface::new(scene, &model, &operator, plan, laws, &stresses)?);
         model.interfaces.push(operator);
     }
-    warnings.extend(cover::shares(scene, &model, &plans)?);
-    let (connectivity, unjoined) = unjoined::look(&model, &plans)?;
+    warnings.extend(cover::shares(scene, &model, &plans, &times)?);
+    let (connectivity, unjoined) = unjoined::look(&model, &plans, &times)?;
     warnings.extend(unjoined);
     for (subdomain, found) in model.subdomains.iter_mut().zip(&connectivity) {
         subdomain.pieces = found.nodes(subdomain);

@@ -8,11 +8,21 @@ use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::Scene;
 
-/// Nodes at which interfaces of more than two bodies meet, or a fracture within a body another interface.
-pub(super) fn junctions(model: &Model, plans: &[PlannedInterface]) -> Vec<bool> {
+/// Nodes at which interfaces of more than two bodies meet at any of the times, or a fracture within a body another interface.
+pub(super) fn junctions(model: &Model, plans: &[PlannedInterface], times: &[Vec<bool>]) -> Vec<bool> {
     if plans.len() < 2 {
         return Vec::new();
     }
+    let mut found = vec![false; model.nodes()];
+    for there in times {
+        let is_there = |plan: &&PlannedInterface| plan.sides.iter().flatten().all(|curve| there[curve.subdomain]);
+        let plans: Vec<&PlannedInterface> = plans.iter().filter(is_there).collect();
+        found.iter_mut().zip(junctions_at(model, &plans)).for_each(|(found, at)| *found |= at);
+    }
+    found
+}
+
+fn junctions_at(model: &Model, plans: &[&PlannedInterface]) -> Vec<bool> {
     let mut bodies: HashMap<usize, Vec<usize>> = HashMap::new();
     let mut within: HashMap<usize, [bool; 2]> = HashMap::new(); // on an opened curve, and on another interface
     for plan in plans {

@@ -120,7 +120,8 @@ impl StressAt {
 /// What is in force in a subdomain from step to step.
 #[derive(Debug, Clone, Default)]
 struct InForce {
-    initial: Option<Arc<PointField>>,
+    /// Initial stress and its forces.
+    initial: Option<(Arc<PointField>, Arc<Vec<f64>>)>,
     temperature: Option<Arc<Vec<f64>>>,
     /// Strains of temperature, and those given.
     warmed: Option<Arc<PointField>>,
@@ -149,14 +150,18 @@ impl AllInForce {
             if scene.steps.iter().any(|step| step.strain.contains_key(name)) {
                 own.given = Some(Arc::new(nothing()?));
             }
-            let stress = match stress {
-                Some(stress) => PointField::sample(mesh, |place| stress.at(place))?,
-                None if own.warmed.is_some() || own.given.is_some() => nothing()?,
+            let (stress, force) = match stress {
+                Some(stress) => (
+                    PointField::sample(mesh, |place| stress.at(place))?,
+                    PointField::forces_of(mesh, model.thickness, |place| stress.at(place))?,
+                ),
+                None if own.warmed.is_some() || own.given.is_some() => {
+                    (nothing()?, vec![0.0; 2 * mesh.points.len()])
+                }
                 None => return Ok(own),
             };
-            let force = Arc::new(stress.forces(mesh, model.thickness));
-            let stress = Arc::new(stress);
-            Ok(InForce { initial: Some(stress.clone()), last: Some((stress, force)), ..own })
+            let initial = (Arc::new(stress), Arc::new(force));
+            Ok(InForce { initial: Some(initial.clone()), last: Some(initial), ..own })
         };
         Ok(AllInForce(initial.iter().enumerate().map(of).collect::<Result<_>>()?))
     }
@@ -191,11 +196,10 @@ impl InForce {
         if stage.present[b] && !stage.activated.contains(&b) {
             return;
         }
-        let none = |field: &PointField| field.map(|_| [0.0; 4]);
-        if let Some((stress, force)) = &self.last {
-            self.last = Some((Arc::new(none(stress)), Arc::new(vec![0.0; force.len()])));
-        }
-        self.initial = self.initial.as_ref().map(|initial| Arc::new(none(initial)));
+        let none = self.last.as_ref().map(|(stress, force)| {
+            (Arc::new(stress.map(|_| [0.0; 4])), Arc::new(vec![0.0; force.len()]))
+        });
+        (self.initial, self.last) = (none.clone(), none);
         self.reference = self.in_force();
     }
 
@@ -246,12 +250,10 @@ impl InForce {
             self.reference = self.in_force();
         } else if changes {
             let eigen = self.strain().map(|strain| strain.map(|strain| elasticity.eigenstress(strain)));
-            let stress = match (eigen, &self.initial) {
-                (Some(eigen), Some(initial)) => eigen.plus(initial, 1.0),
-                (Some(one), None) => one,
-                (None, _) => return Ok(None),
-            };
-            let force = stress.forces(mesh, model.thickness);
+            let (Some(eigen), Some((initial, held))) = (eigen, &self.initial) else { return Ok(None) };
+            let mut force = eigen.forces(mesh, model.thickness);
+            force.iter_mut().zip(held.iter()).for_each(|(force, held)| *force += held);
+            let stress = eigen.plus(initial, 1.0);
             self.last = Some((Arc::new(stress), Arc::new(force)));
         }
         let (Some((stress_before, force_before)), Some((stress, force))) =

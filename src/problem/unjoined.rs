@@ -29,8 +29,12 @@ pub(super) struct Connectivity {
 /// Length and middle of lines of contact.
 type ContactLine = (f64, [f64; 3]);
 
-/// Connectivity of every subdomain; warnings of boundaries that lie on each other and that nothing joins.
-pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
+/// Connectivity of every subdomain; warnings of boundaries that lie on each other at one of the times and that nothing joins.
+pub(super) fn look(
+    model: &Model,
+    plans: &[PlannedInterface],
+    times: &[Vec<bool>],
+) -> Result<(Vec<Connectivity>, Vec<Warning>)> {
     let pieces: Vec<Result<Pieces>> =
         model.subdomains.par_iter().map(|subdomain| subdomain.mesh.pieces()).collect();
     let pieces = pieces.into_iter().collect::<Result<Vec<Pieces>>>()?;
@@ -65,7 +69,8 @@ pub(super) fn look(model: &Model, plans: &[PlannedInterface]) -> Result<(Vec<Con
         let help = "is `Coherence` or `BooleanFragments` missing in its .geo? fine if a slit is meant";
         Warning::new(Code::Unconnected, what, help)
     });
-    let unjoined = apart.iter().map(|(&[a, b], (length, middle))| {
+    let together = |[a, b]: &[usize; 2]| times.iter().any(|there| there[*a] && there[*b]);
+    let unjoined = apart.iter().filter(|(pair, _)| together(pair)).map(|(&[a, b], (length, middle))| {
         let [a, b] = [&model.subdomains[a], &model.subdomains[b]];
         let (length, place) = (short(a, *length), near(a, *middle));
         let what = format!("{} and {} touch along {length} near {place} and no interface joins them", a.name, b.name);

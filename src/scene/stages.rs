@@ -91,6 +91,17 @@ impl Scene {
         Ok(stages)
     }
 
+    /// Subdomains that are there together, at one time or another.
+    pub fn times(&self) -> Result<Vec<Vec<bool>>> {
+        let mut times = vec![self.there_at_first()?];
+        for stage in self.stages()? {
+            if !times.contains(&stage.present) {
+                times.push(stage.present);
+            }
+        }
+        Ok(times)
+    }
+
     /// Subdomains that are there before the first step: all but those that are first mentioned by `activate`.
     pub fn there_at_first(&self) -> Result<Vec<bool>> {
         let mut mentioned = vec![None; self.subdomains.len()];

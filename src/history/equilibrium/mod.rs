@@ -30,9 +30,6 @@ pub(in crate::history) enum Failure {
     Unusable(f64),
 }
 
-/// Part of the most that was carried against which a residual counts where nothing is.
-const AT_REST: f64 = 1e-3;
-
 /// Points that reach their surface within this fraction of a part do so at once.
 const ON: f64 = 1e-6;
 
@@ -54,7 +51,8 @@ pub(in crate::history) struct Search {
     first: bool,
     /// Load factor of the last accepted state in its step.
     load_factor: f64,
-    /// The largest norm that the forces have had [force].
+    /// The largest norm that the forces have had: residuals count against it at least. Where the load is taken off there is no
+    /// other measure [force].
     most: f64,
 }
 
@@ -66,12 +64,6 @@ impl Search {
         }
         let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
         self.unknowns.iter().zip(&self.before).map(along).collect()
-    }
-
-    /// Force against which a residual counts at least: what was carried at the last accepted increment, and a small part of the
-    /// most that ever was. Where the load is taken off there is no other.
-    fn reference(&self) -> f64 {
-        norm(&self.forces).max(AT_REST * self.most)
     }
 
     /// Takes unknowns, forces and viscous tractions of what is accepted; those before come back in their places.

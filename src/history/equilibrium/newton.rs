@@ -104,7 +104,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         complete: bool,
     ) -> Result<Converged, Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        form.compare_with(self.search.reference());
+        form.compare_with(self.search.most);
         let mut target = target(form, self.prepared, load)?;
         let (mut residuals, mut passes) = (Vec::new(), 0);
         // the first increment of a step shows whether displacements are needed against the rounding of the others
@@ -281,7 +281,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         path: &PathSearch,
     ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        form.compare_with(self.search.reference());
+        form.compare_with(self.search.most);
         let laws = Laws::alone(self.problem, Old::of(&state.snapshot), f64::INFINITY);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
