@@ -42,7 +42,8 @@ MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
 ENERGY_BALANCE = 1e-8  # where geo/<scene>/check.args says nothing: work − stored − dissipated − released, of the largest of them so far
 SUMMARY_KEYS = {"title", "sizes", "variables", "solution", "equilibrium", "time", "warnings"}
-STATUSES = range(7)
+STATUSES = range(-1, 7)
+ABSENT = -1  # a part of the interface is not there
 OPEN, CLOSED, TIED = 4, 5, 6  # free of stress; the faces touch; open, but not free
 LENGTH = 1e-9  # what the law points leave out of an interface
 KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
@@ -109,10 +110,14 @@ def check_arrays(path, place, data, wanted, faults):
     return good
 
 
-def check_subdomain(path, grid, faults):
-    """Displacements and stresses of a subdomain; the principal stresses belong to the stresses."""
-    good = check_arrays(path, "point", grid.point_data, SUBDOMAIN_POINTS, faults)
-    good &= check_arrays(path, "cell", grid.cell_data, SUBDOMAIN_CELLS, faults)
+def check_subdomain(path, grid, name, scene, faults):
+    """Displacements and stresses of a subdomain, and what its scene gives it; the principal stresses belong to the stresses."""
+    warms, strains = ({sub for step in scene["steps"] for sub in step.get(key, {})} for key in ("temperature", "strain"))
+    points = SUBDOMAIN_POINTS | ({"temperature": 1} if name in warms else {})
+    cells = SUBDOMAIN_CELLS | ({"own_strain": 6} if name in warms | strains else {})
+    cells |= {"present": 1} if has_stages(scene) else {}
+    good = check_arrays(path, "point", grid.point_data, points, faults)
+    good &= check_arrays(path, "cell", grid.cell_data, cells, faults)
     if not good:
         return
     xx, yy, zz, xy, yz, xz = grid.cell_data["stress"].T
@@ -142,7 +147,10 @@ def check_interface(path, grid, law, variables, faults):
         return
     faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines")
     faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
-    faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in 0 ... {STATUSES[-1]}")
+    faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in {STATUSES[0]} ... {STATUSES[-1]}")
+    absent = grid["status"] == ABSENT
+    faults.expect(not absent.any() or absent.all(), f"{path}: a part of it is not there")
+    faults.expect(not grid["traction"][absent].any(), f"{path}: traction where a part is not there")
     for name in variables:
         faults.expect((grid[name] >= 0).all(), f"{path}: {name} is negative")
     if law["type"] != "elastic":
@@ -168,6 +176,11 @@ def check_faces(path, grid, faults):
     expect_none((status == CLOSED) & (sigma > nothing), "tension across closed faces")
     expect_none((status == TIED) & (gap < -narrow), "tied faces that overlap")
     expect_none((gap > narrow) & (sigma < -nothing), "compression through a gap")
+
+
+def has_stages(scene):
+    """True if parts come or go."""
+    return any(key in step for step in scene["steps"] for key in ("activate", "deactivate"))
 
 
 def check_midplane(path, faults):
@@ -279,7 +292,7 @@ def check(results, scene, energy, expectations, faults):
         if grid is None:
             continue
         if name in scene["subdomains"]:
-            check_subdomain(path, grid, faults)
+            check_subdomain(path, grid, name, scene, faults)
         else:
             check_interface(path, grid, entry_of(scene, name)["law"], variables, faults)
             interfaces.setdefault(int(number), {})[name] = grid

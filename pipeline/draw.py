@@ -26,6 +26,7 @@ from joints import entry_of, subdomains_of
 from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
 from traction import deviation, draw_traction
 
+ABSENT = -1  # status where a part is not there
 FEW = 60  # segments that one picture can show
 
 
@@ -41,6 +42,19 @@ class Results:
         self.subdomains = {name: field for name, field in fields.items() if name in scene["subdomains"]}
         self.interfaces = {name: field for name, field in fields.items() if name not in self.subdomains}
 
+    def bodies(self, window=None):
+        """The parts that are there, all of them or their cells in a window ((x0, x1), (y0, y1))."""
+        there = [mesh for mesh in self.subdomains.values() if mesh.cell_data.get("present", np.ones(1)).any()]
+        if window is None:
+            return there
+        low, high = np.transpose(window)
+
+        def cut(mesh):
+            centres = mesh.cell_centers().points[:, :2]
+            return mesh.extract_cells(((low <= centres) & (centres <= high)).all(axis=1))
+
+        return [part for part in map(cut, there) if part.n_cells]
+
     def midplane(self, name):
         """Mid-plane of an interface: its points, the ends of its segments and of its grid cells, parents."""
         grid = pyvista.read(self.folder / "midplane" / f"{name}.vtu")
@@ -49,9 +63,9 @@ class Results:
         return grid.points[:, :2], lines[kind == 0], lines[kind == 1], parents
 
 
-def draw_displacement(results, title, units):
+def draw_displacement(results, title, units, window):
     """The deformed mesh over the outline of the undeformed one."""
-    meshes = results.subdomains.values()
+    meshes = results.bodies(window)
     size = max(np.ptp(bounds) for bounds in page.frame(meshes, margin=0.0))
     largest = max(np.linalg.norm(mesh["displacement"], axis=1).max() for mesh in meshes)
     factor = page.round_down(0.1 * size / largest) if largest > 0 else 1.0
@@ -85,9 +99,9 @@ def outline(mesh):
     return [line.points[:, :2] for line in lines.cell]
 
 
-def draw_principal_stress(results, title, units):
+def draw_principal_stress(results, title, units, window):
     """A cross in each cell: arms along the principal directions, as long as the stress is large."""
-    meshes = results.subdomains.values()
+    meshes = results.bodies(window)
     centres = np.vstack([mesh.cell_centers().points[:, :2] for mesh in meshes])
     stress = np.vstack([mesh.cell_data["stress"] for mesh in meshes])
     principal = np.vstack([mesh.cell_data["principal_stress"] for mesh in meshes])[:, :2]
@@ -237,6 +251,15 @@ def parse_exact(text):
         raise argparse.ArgumentTypeError(message) from None
 
 
+def parse_window(text):
+    """X0:X1:Y0:Y1 as ((x0, x1), (y0, y1))."""
+    try:
+        x0, x1, y0, y1 = map(float, text.split(":"))
+        return (x0, x1), (y0, y1)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text} is not X0:X1:Y0:Y1") from None
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__,
@@ -256,6 +279,8 @@ def parse_arguments():
     parser.add_argument("--solution", help=solution, choices=SOLUTIONS)
     within = "what tractions may be off the exact ones, of the largest of these"
     parser.add_argument("--within", type=float, help=within)
+    window = "the part of the scene that the pictures of meshes show"
+    parser.add_argument("--window", help=window, metavar="X0:X1:Y0:Y1", type=parse_window)
     parser.add_argument("--label", help="name of this run beside others, default: its coupling")
     return parser.parse_args()
 
@@ -280,6 +305,8 @@ def main():
         solution = SOLUTIONS[arguments.solution](scene, results)
         known += [("", component, *curve) for component, curve in solution.traction.items()]
     for name in results.interfaces:
+        if (results.interfaces[name]["status"] == ABSENT).all():
+            continue
         entry = entry_of(scene, name)
         label = arguments.label or entry.get("coupling", "projected")
         here = [values for interface, *values in known if interface in ("", name)]
@@ -292,8 +319,8 @@ def main():
     if not page.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return
-    draw_displacement(results, title, units)
-    draw_principal_stress(results, title, units)
+    draw_displacement(results, title, units, arguments.window)
+    draw_principal_stress(results, title, units, arguments.window)
     for name in results.interfaces:
         draw_coupling(results, name, subdomains_of(scene, name), title, units)
 

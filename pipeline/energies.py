@@ -79,6 +79,9 @@ def increases(scene, results, rows, columns):
         known = ways is not None and ramps is not None and not step.get("release")
         # initial tractions: reactions before the first row
         known &= not (first and any("initial_traction" in own for own in scene["interfaces"].values()))
+        # forces that are held, stresses from before, and what warms a body, work too
+        known &= not any(key in own for own in scene["steps"] for key in ("deactivate", "temperature", "strain"))
+        known &= not any("initial_stress" in own for own in scene["subdomains"].values())
         level = 0.0
         for row in (row for row in rows if row["step"] == step["name"]):
             now = row["load_factor"]

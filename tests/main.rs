@@ -75,6 +75,7 @@ mod stiff;
 mod structures;
 mod study;
 mod tension;
+mod tunnel;
 mod varying;
 mod verify;
 mod warnings;
