@@ -10,7 +10,14 @@ use midplane::shape::Shape;
 const CRACKING: &str = r#""type": "cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,
     "fracture_energy_i": 2e-4, "fracture_energy_iia": 2e-3, "dilatancy_stress": 0"#;
 
-fn problem(law: &str, control: &str, strategy: &str, fields: &str) -> Problem {
+/// The upper block goes by half, wholly, and comes again, colder.
+const STAGES: &str = r#",
+            {"name": "half", "increments": 2, "deactivate": {"upper": 0.5}},
+            {"name": "gone", "increments": 2, "deactivate": {"upper": 1}},
+            {"name": "again", "increments": 2, "activate": ["upper"]},
+            {"name": "cold", "increments": 2, "strain": {"upper": [-1e-4, -1e-4, -1e-4, 0]}}"#;
+
+fn problem(law: &str, control: &str, strategy: &str, fields: &str, more: &str) -> Problem {
     let text = format!(
         r#"{{"plane": "strain",
         "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
@@ -21,7 +28,7 @@ fn problem(law: &str, control: &str, strategy: &str, fields: &str) -> Problem {
         "steps": [
             {{"name": "press", "fix": {{"lower.bottom": ["x", "y"]}}, "load": {{"upper.top": {{"pressure": 2}}}}}},
             {{"name": "shear", "increments": 6, "control": "{control}", "displace": {{"upper.top": {{"x": 4e-4}}}}}},
-            {{"name": "let go", "increments": 3, "release": {{"upper.top": ["x"]}}}}],
+            {{"name": "let go", "increments": 3, "release": {{"upper.top": ["x"]}}}}{more}],
         "output": {{"fields": "{fields}", "history": {{"x": "upper.top.displacement_x", "t": "joint.traction_t@0.5"}}}}}}"#
     );
     bind(&text, blocks()).unwrap()
@@ -56,18 +63,22 @@ fn an_interrupted_history_goes_on_as_if_it_had_not_been() {
     let elastic = r#""type": "elastic""#;
     let coulomb = r#""type": "coulomb", "friction_coefficient": 0.5"#;
     let cases = [
-        (CRACKING, "load", "condensed", "every", 0.0),
-        (CRACKING, "load", "blocks", "step", 0.0),
-        (CRACKING, "auto", "condensed", "every", 0.0),
-        (CRACKING, "arclength", "plain", "every", 0.0),
-        (coulomb, "load", "condensed", "step", 0.0),
-        (coulomb, "load", "plain", "last", 0.0),
-        (elastic, "load", "auto", "every", 1e-12),
-        (elastic, "load", "condensed", "step", 1e-12),
+        (CRACKING, "load", "condensed", "every", "", 0.0),
+        (CRACKING, "load", "blocks", "step", "", 0.0),
+        (CRACKING, "auto", "condensed", "every", "", 0.0),
+        (CRACKING, "arclength", "plain", "every", "", 0.0),
+        (coulomb, "load", "condensed", "step", "", 0.0),
+        (coulomb, "load", "plain", "last", "", 0.0),
+        (elastic, "load", "auto", "every", "", 1e-12),
+        (elastic, "load", "condensed", "step", "", 1e-12),
+        (CRACKING, "auto", "condensed", "step", STAGES, 0.0),
+        (coulomb, "load", "plain", "every", STAGES, 0.0),
+        (coulomb, "load", "blocks", "last", STAGES, 0.0),
+        (elastic, "load", "auto", "step", STAGES, 0.0),
     ];
-    for (law, control, strategy, fields, tolerance) in cases {
-        let what = format!("{law} {control} {strategy} {fields}");
-        let problem = problem(law, control, strategy, fields);
+    for (law, control, strategy, fields, more, tolerance) in cases {
+        let what = format!("{law} {control} {strategy} {fields}{more}");
+        let problem = problem(law, control, strategy, fields, more);
         let mut clock = Clock::new("test");
         let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
         let mut history = History::new(&problem, &equations, clock.clone());

@@ -34,7 +34,8 @@ fn quarters(n: usize) -> Vec<Mesh> {
 }
 
 fn tunnel(n: usize, [ph, pv]: [f64; 2], steps: &str) -> Problem {
-    let stress = format!(r#""initial_stress": {{ "xx": {}, "yy": {}, "zz": {} }}"#, -ph, -pv, -NU * (ph + pv));
+    let stress =
+        format!(r#""initial_stress": {{ "xx": {}, "yy": {}, "zz": {} }}"#, -ph, -pv, -NU * (ph + pv));
     let r = 0.5 * A;
     let text = format!(
         r#"{{ "plane": "strain",
@@ -112,6 +113,12 @@ fn a_lining_that_comes_half_way_carries_what_is_left() {
     for t in &last.snapshot.tractions[1] {
         close(t[0], -exact, 1e-2, exact, "pressure on the lining");
     }
-    close(wall(&problem, last, "right").0, -(p - exact) * ground, 5e-3, p * ground, "the ground has come to rest");
+    close(
+        wall(&problem, last, "right").0,
+        -(p - exact) * ground,
+        5e-3,
+        p * ground,
+        "the ground has come to rest",
+    );
     println!("pressure on the lining {:.5} of {exact:.5}", -last.snapshot.tractions[1][3][0]);
 }

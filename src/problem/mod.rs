@@ -142,7 +142,8 @@ fn join<'a>(scene: &'a Scene, meshes: Vec<Mesh>, known: &[InterfaceOperator]) ->
     let mut interfaces = Vec::new();
     let opened = within::open(scene, &mut model)?;
     let plans = plan::plans(scene, &model, opened)?;
-    let (supports, junctions) = (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans, &times));
+    let (supports, junctions) =
+        (supports::over_all_steps(scene, &model)?, plan::junctions(&model, &plans, &times));
     let around = Surroundings { supports: &supports, junctions: &junctions };
     for (k, plan) in plans.iter().enumerate() {
         let operator = known.get(k).map_or_else(|| plan.join(&model, around), |known| Ok(known.clone()))?;

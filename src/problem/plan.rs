@@ -15,7 +15,8 @@ pub(super) fn junctions(model: &Model, plans: &[PlannedInterface], times: &[Vec<
     }
     let mut found = vec![false; model.nodes()];
     for there in times {
-        let is_there = |plan: &&PlannedInterface| plan.sides.iter().flatten().all(|curve| there[curve.subdomain]);
+        let is_there =
+            |plan: &&PlannedInterface| plan.sides.iter().flatten().all(|curve| there[curve.subdomain]);
         let plans: Vec<&PlannedInterface> = plans.iter().filter(is_there).collect();
         found.iter_mut().zip(junctions_at(model, &plans)).for_each(|(found, at)| *found |= at);
     }

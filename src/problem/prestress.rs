@@ -196,9 +196,10 @@ impl InForce {
         if stage.present[b] && !stage.activated.contains(&b) {
             return;
         }
-        let none = self.last.as_ref().map(|(stress, force)| {
-            (Arc::new(stress.map(|_| [0.0; 4])), Arc::new(vec![0.0; force.len()]))
-        });
+        let none = self
+            .last
+            .as_ref()
+            .map(|(stress, force)| (Arc::new(stress.map(|_| [0.0; 4])), Arc::new(vec![0.0; force.len()])));
         (self.initial, self.last) = (none.clone(), none);
         self.reference = self.in_force();
     }
