@@ -93,7 +93,8 @@ fn bare(problem: &Problem) -> Result<f64, String> {
     let mut stored = 0.0;
     for (b, subdomain) in model.subdomains.iter().enumerate() {
         stored +=
-            recover(&subdomain.mesh, &u[model.dofs_of(b)], &subdomain.elasticity, model.thickness).energy;
+            recover(&subdomain.mesh, &u[model.dofs_of(b)], &subdomain.elasticity, model.thickness, None)
+                .energy;
     }
     for interface in &model.interfaces {
         let jumps = interface.jumps(&u);

@@ -53,13 +53,15 @@ pub enum Code {
     Beyond,
     /// Points of a softening curve whose area is not the fracture energy.
     Stretched,
-    /// Initial stresses that do not agree at an interface, or that the first loads do not hold.
+    /// Initial stresses that do not agree at an interface.
     InitialStress,
+    /// Initial stresses that the first loads do not hold.
+    NotAtRest,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 24] = [
+    pub const ALL: [Code; 25] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -84,6 +86,7 @@ impl Code {
         Code::Beyond,
         Code::Stretched,
         Code::InitialStress,
+        Code::NotAtRest,
     ];
 }
 

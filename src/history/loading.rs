@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use serde::{Deserialize, Serialize};
 
-use super::stages::HeldForces;
+use super::held::HeldForces;
 use crate::error::Result;
 use crate::problem::{BoundProbe, BoundStep, Problem};
 use crate::shape::Ends;

@@ -5,59 +5,10 @@
 //! comes   r₀ = G u, its own u = 0: laws start anew and count jumps from there
 //! ```
 
-use serde::{Deserialize, Serialize};
-
+use super::held::{HeldForces, absent};
 use super::state::ModelState;
 use crate::law::Local;
-use crate::output::Presence;
 use crate::problem::{BoundStep, Problem};
-use crate::scene::Stage;
-
-/// Forces that a part exerted on its neighbours before it went, by dof [force].
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct HeldForces {
-    subdomain: usize,
-    force: Vec<f64>,
-}
-
-impl HeldForces {
-    /// Share that is left at a load factor of a step.
-    fn left(&self, stage: &Stage, load_factor: f64) -> f64 {
-        let of = stage.left.iter().find(|(subdomain, _)| *subdomain == self.subdomain);
-        of.map_or(
-            0.0,
-            |(_, [from, to])| if load_factor == 1.0 { *to } else { from + load_factor * (to - from) },
-        )
-    }
-
-    /// Adds what is left of all at a load factor of a step.
-    pub(super) fn add(held: &[HeldForces], step: &BoundStep, load_factor: f64, force: &mut [f64]) {
-        let Some(stage) = &step.stage else { return };
-        for own in held {
-            let left = own.left(stage, load_factor);
-            force.iter_mut().zip(&own.force).for_each(|(force, own)| *force += left * own);
-        }
-    }
-}
-
-/// Parts that are there before the first step.
-pub(super) fn presence_at_first(problem: &Problem) -> Presence {
-    let Some(stage) = problem.steps.first().and_then(|step| step.stage.as_ref()) else {
-        return Presence::default();
-    };
-    let before = |b: usize| (stage.present[b] && !stage.activated.contains(&b)) || stage.removed.contains(&b);
-    let parts: Vec<bool> = (0..stage.present.len()).map(before).collect();
-    let absent = absent(problem, &parts);
-    let origins = vec![Vec::new(); absent.len()];
-    Presence { parts, absent, origins }
-}
-
-/// True for interfaces of which a part is not there.
-fn absent(problem: &Problem, parts: &[bool]) -> Vec<bool> {
-    let there =
-        |interface: &crate::assembly::InterfaceOperator| interface.subdomains.iter().all(|&b| parts[b]);
-    problem.model.interfaces.iter().map(|interface| !there(interface)).collect()
-}
 
 impl ModelState {
     /// Parts go and come as a step starts.
@@ -109,8 +60,8 @@ impl ModelState {
         for of in [&mut force, &mut self.snapshot.u, &mut self.force, &mut self.reactions] {
             of[own.clone()].fill(0.0);
         }
-        self.held.iter_mut().for_each(|held| held.force[own.clone()].fill(0.0));
+        self.held.iter_mut().for_each(|held| held.forget(own.clone()));
         self.force.iter_mut().zip(&force).for_each(|(all, own)| *all += own);
-        self.held.push(HeldForces { subdomain: b, force });
+        self.held.push(HeldForces::new(b, force));
     }
 }

@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use super::converged::{Converged, InterfaceResponse};
 use super::energy::{across, carried, work_to};
+use super::held::{HeldForces, presence_at_first};
 use super::loading::{Ledger, LoadForces, StepLoad};
-use super::stages::{HeldForces, presence_at_first};
+use super::prestress::{holding, stresses, warmed};
 use crate::assembly::InterfaceOperator;
-use crate::continuum::{Stresses, recover};
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
@@ -90,45 +90,11 @@ impl ModelState {
             held: Vec::new(),
             most_carried: 0.0,
         };
-        state.hold(problem);
+        if let Some([force, reactions]) = holding(problem) {
+            (state.force, state.reactions) = (force, reactions);
+        }
         state.recover(problem);
         state
-    }
-
-    /// Loads and reactions that hold initial stresses, where there are any.
-    fn hold(&mut self, problem: &Problem) {
-        let Some(step) = problem.steps.first() else { return };
-        let (Some(mut inside), Ok(force)) =
-            (step.prestress_forces(&problem.model, 0.0), step.force(&problem.model, 0.0))
-        else {
-            return;
-        };
-        for (interface, bound) in problem.model.interfaces.iter().zip(&problem.interfaces) {
-            let at = |p: usize| bound.states.get(p).map_or(bound.initial.at(p), |state| state.traction);
-            let leading = |v: Local| <[f64; 3]>::from(v).into_iter().take(problem.model.components);
-            let tractions: Vec<f64> =
-                (0..interface.coupling.points.len()).flat_map(|p| leading(at(p))).collect();
-            interface.add_force(&tractions, &mut inside);
-        }
-        let held = inside.iter().zip(&force).zip(&step.constrained);
-        self.reactions = held.map(|((p, f), constrained)| if *constrained { p - f } else { 0.0 }).collect();
-        self.force = force;
-    }
-
-    /// Work of what strains bodies by themselves: −∫ σ : dε*, as ½ (u₀ + u₁) · Δp + Δ ½ ∫ ε*ᵀ C ε*.
-    fn warmed(&self, problem: &Problem, u: &[f64], at: (usize, f64)) -> f64 {
-        if !problem.steps[at.0].warms() {
-            return 0.0;
-        }
-        let nothing = || vec![0.0; u.len()];
-        let [(before, energy_before), (now, energy)] = [self.at, at].map(|(step, load_factor)| {
-            let step = &problem.steps[step];
-            let forces = step.prestress_forces(&problem.model, load_factor).unwrap_or_else(nothing);
-            (forces, step.own_strain_energy(load_factor))
-        });
-        let moved = self.snapshot.u.iter().zip(u).zip(now.iter().zip(&before));
-        moved.map(|((a, b), (now, before))| 0.5 * (a + b) * (now - before)).sum::<f64>() + energy
-            - energy_before
     }
 
     /// Opens a step whose increments may do without displacements.
@@ -147,7 +113,9 @@ impl ModelState {
         let at = (load.step(), load.load_factor);
         self.most_carried = self.most_carried.max(carried(problem, &self.snapshot).sqrt());
         self.released += released;
-        self.work += solution.as_ref().map_or(0.0, |solution| self.warmed(problem, &solution.u, at));
+        if let Some(solution) = &solution {
+            self.work += warmed(problem, [self.at, at], [&self.snapshot.u, &solution.u]);
+        }
         self.at = at;
         self.work += match (&ledger, &self.ledger, &solution) {
             (Some(now), Some(before), _) => now.work_since(before),
@@ -210,7 +178,7 @@ impl ModelState {
         let Problem { model, interfaces, .. } = problem;
         let u = &self.snapshot.u;
         self.snapshot.stresses = match self.is_complete() {
-            true => (0..model.subdomains.len()).map(|b| self.stresses(problem, b, u)).collect(),
+            true => (0..model.subdomains.len()).map(|b| stresses(problem, self.at, b, u)).collect(),
             false => Vec::new(),
         };
         self.stored = match &self.ledger {
@@ -259,20 +227,6 @@ impl ModelState {
         }
         let energies = [self.work, self.stored, self.dissipated, self.released].map(f64::abs);
         self.largest = energies.into_iter().fold(self.largest, f64::max);
-    }
-
-    fn stresses(&self, problem: &Problem, subdomain: usize, u: &[f64]) -> Stresses {
-        let (model, of) = (&problem.model, &problem.model.subdomains[subdomain]);
-        let (step, load_factor) = self.at;
-        let own = problem.steps.get(step).and_then(|step| step.prestress.get(subdomain)?.as_ref());
-        let beyond = own.map(|own| own.at(load_factor));
-        let u = &u[model.dofs_of(subdomain)];
-        let stresses = recover(&of.mesh, u, &of.elasticity, model.thickness, beyond.as_deref());
-        Stresses {
-            temperatures: own.and_then(|own| own.temperatures(load_factor)),
-            strains: own.and_then(|own| own.strains(load_factor)),
-            ..stresses
-        }
     }
 
     /// The largest energy so far [force × length].

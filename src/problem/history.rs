@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
+use super::ground::StressAt;
 use super::load::BoundLoad;
-use super::prestress::{AllInForce, StressAt};
+use super::prestress::AllInForce;
 use super::step::BoundStep;
 use super::supports::{Supports, dofs, hold_and_release, named, prescribed, support};
 use super::{BoundInterface, in_situ};

@@ -5,12 +5,12 @@
 //! ```
 
 use super::curve::PlannedInterface;
+use super::ground::{StressAt, tractions};
 use super::point_laws::{place, shown};
-use super::prestress::StressAt;
 use super::{BoundInterface, Prestress, prestress};
-use crate::assembly::{InterfaceOperator, Model};
+use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
-use crate::law::{Local, N, T};
+use crate::law::Local;
 use crate::scene::Scene;
 use std::sync::Arc;
 
@@ -18,29 +18,6 @@ use std::sync::Arc;
 const ALIKE: f64 = 1e-6;
 /// The same of forces that are out of balance, of the weight.
 const BALANCED: f64 = 1e-6;
-
-/// Tractions that both sides' initial stresses make at the law points of an interface; none if neither side has any [stress].
-pub(super) fn tractions(
-    stresses: &[Option<StressAt>],
-    interface: &InterfaceOperator,
-) -> Result<Option<Vec<[Local; 2]>>> {
-    let both = interface.subdomains.map(|b| stresses[b].as_ref());
-    if both.iter().all(Option::is_none) {
-        return Ok(None);
-    }
-    let at = |point: &crate::coupling::LawPoint| {
-        let mut sides = [Local::zeros(); 2];
-        for (side, stress) in sides.iter_mut().zip(both) {
-            let Some(stress) = stress else { continue };
-            let [xx, yy, zz, xy] = stress.at(point.position)?;
-            let normal = Local::from(point.rotation[N]);
-            let on = Local::new(xx * normal.x + xy * normal.y, xy * normal.x + yy * normal.y, zz * normal.z);
-            *side = Local::from_fn(|i, _| if i <= T { Local::from(point.rotation[i]).dot(&on) } else { 0.0 });
-        }
-        Ok(sides)
-    };
-    Ok(Some(interface.coupling.points.iter().map(at).collect::<Result<_>>()?))
-}
 
 /// Warnings of interfaces whose sides do not agree, or not with what the scene states there.
 pub(super) fn disagreements(
@@ -117,6 +94,6 @@ pub(super) fn imbalance(
             100.0 * rest / of
         );
         let help = "state its gravity and its pressures in the first step; what is left moves the model in that step";
-        Warning::new(Code::InitialStress, what, help)
+        Warning::new(Code::NotAtRest, what, help)
     })
 }

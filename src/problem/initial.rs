@@ -1,8 +1,7 @@
 //! Initial tractions t₀ at the law points of an interface (paper eq. 10).
 
-use super::in_situ;
+use super::ground::{self, StressAt};
 use super::point_laws::{place, shown};
-use super::prestress::StressAt;
 use super::quantity::Quantity;
 use super::{Gaps, PointLaws};
 use crate::assembly::InterfaceOperator;
@@ -40,7 +39,7 @@ impl InitialTraction {
         let [n, t] = &stated.initial_traction;
         if n.is_zero()
             && t.is_zero()
-            && let Some(sides) = in_situ::tractions(stresses, interface)?
+            && let Some(sides) = ground::tractions(stresses, interface)?
         {
             let means = sides.into_iter().map(|[a, b]| 0.5 * (a + b));
             return Ok(InitialTraction::Varying(means.collect()));

@@ -1,16 +1,16 @@
 //! An interface, bound: its law with all that the law starts from.
 
 use super::curve::PlannedInterface;
-use super::prestress::StressAt;
+use super::ground::StressAt;
 use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
 use crate::law::{self, Integration, Local};
-use crate::scene::{Scene, Stage};
+use crate::scene::{Scene, StepStage};
 
 /// Whether the parts that an interface joins come or go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Parts {
+enum JoinedParts {
     /// They are always there.
     Stay,
     /// They are there at first.
@@ -19,15 +19,16 @@ enum Parts {
     Absent,
 }
 
-impl Parts {
-    fn of(scene: &Scene, operator: &InterfaceOperator) -> Result<Parts> {
+impl JoinedParts {
+    fn of(scene: &Scene, operator: &InterfaceOperator) -> Result<JoinedParts> {
         let stages = scene.stages()?;
-        let changes = |stage: &Stage, b: usize| stage.activated.contains(&b) || stage.removed.contains(&b);
+        let changes =
+            |stage: &StepStage, b: usize| stage.activated.contains(&b) || stage.removed.contains(&b);
         if !operator.subdomains.iter().any(|&b| stages.iter().any(|stage| changes(stage, b))) {
-            return Ok(Parts::Stay);
+            return Ok(JoinedParts::Stay);
         }
         let there = scene.there_at_first()?;
-        Ok(if operator.subdomains.iter().all(|&b| there[b]) { Parts::Go } else { Parts::Absent })
+        Ok(if operator.subdomains.iter().all(|&b| there[b]) { JoinedParts::Go } else { JoinedParts::Absent })
     }
 }
 
@@ -65,17 +66,17 @@ impl BoundInterface {
     ) -> Result<BoundInterface> {
         let stated = plan.stated;
         let gaps = Gaps::new(stated.initial_gap, operator);
-        let parts = Parts::of(scene, operator)?;
+        let parts = JoinedParts::of(scene, operator)?;
         let initial = match parts {
-            Parts::Absent => InitialTraction::Uniform(Local::zeros()),
+            JoinedParts::Absent => InitialTraction::Uniform(Local::zeros()),
             _ => InitialTraction::bind(scene, plan.entry, stated, operator, stresses)?,
         };
         let states = |initial: &InitialTraction| {
             initial::states(scene, plan.entry, stated, &laws, initial, &gaps, operator)
         };
-        let has_states = !laws.kind().is_linear() || parts != Parts::Stay;
+        let has_states = !laws.kind().is_linear() || parts != JoinedParts::Stay;
         let anew = match parts {
-            Parts::Stay => None,
+            JoinedParts::Stay => None,
             _ => Some(states(&InitialTraction::Uniform(Local::zeros()))?),
         };
         Ok(BoundInterface {

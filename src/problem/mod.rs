@@ -5,6 +5,7 @@ mod between;
 mod cover;
 mod curve;
 mod gap;
+mod ground;
 mod groups;
 mod history;
 mod idle;
@@ -45,7 +46,7 @@ pub use survey::Survey;
 pub use unused::unused_groups;
 
 use curve::PlannedInterface;
-use prestress::StressAt;
+use ground::StressAt;
 use unjoined::Connectivity;
 
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};

@@ -1,12 +1,13 @@
-//! Stresses beyond those of the strains, bound: initial stress, and temperature and strains of their own from step to step.
+//! Stresses beyond those of the strains, from step to step: initial stress, temperature and strains of their own.
 
 use std::sync::Arc;
 
+use super::ground::StressAt;
 use super::quantity::Quantity;
 use crate::assembly::Model;
 use crate::continuum::PointField;
 use crate::error::{Error, Result};
-use crate::scene::{FormulaPlace, Ground, InitialStress, Plane, Scene, Stage, Step, Value};
+use crate::scene::{FormulaPlace, Scene, Step, StepStage, Value};
 use crate::shape::Ends;
 
 /// What a body has beyond the stresses of its strains, at the start and at the end of a step, between which it is affine.
@@ -70,53 +71,6 @@ fn between<T>(
     }
 }
 
-/// Initial stress of a subdomain at a place (x, y) [stress].
-#[derive(Debug, Clone)]
-pub(super) enum StressAt {
-    Ground { ground: Ground, weight: f64, out_of_plane: bool },
-    Components([Quantity; 4]),
-}
-
-impl StressAt {
-    /// That of every subdomain, where it has one.
-    pub(super) fn all(scene: &Scene, model: &Model) -> Vec<Option<StressAt>> {
-        let of = |(b, (name, stated)): (usize, (&String, &crate::scene::Subdomain))| {
-            Some(match stated.initial_stress.as_ref()? {
-                InitialStress::Ground(ground) => StressAt::Ground {
-                    ground: *ground,
-                    weight: -model.subdomains[b].density * ground.gravity[1],
-                    out_of_plane: scene.plane == Plane::Strain,
-                },
-                InitialStress::Components(components) => {
-                    StressAt::Components(components.keys().map(|(key, value)| {
-                        Quantity::new(scene, &["subdomains", name, "initial_stress", key], value)
-                    }))
-                }
-            })
-        };
-        scene.subdomains.iter().enumerate().map(of).collect()
-    }
-
-    /// (xx, yy, zz, xy) at a place.
-    pub(super) fn at(&self, [x, y, z]: [f64; 3]) -> Result<[f64; 4]> {
-        match self {
-            StressAt::Ground { ground, weight, out_of_plane } => {
-                let vertical = -ground.overburden - weight * (ground.surface - y);
-                let horizontal = ground.k0 * vertical;
-                Ok([horizontal, vertical, if *out_of_plane { horizontal } else { 0.0 }, 0.0])
-            }
-            StressAt::Components(components) => {
-                let place = FormulaPlace { x, y, z, s: 0.0, load_factor: 0.0 };
-                let mut stress = [0.0; 4];
-                for (stress, component) in stress.iter_mut().zip(components) {
-                    *stress = component.at(&place)?;
-                }
-                Ok(stress)
-            }
-        }
-    }
-}
-
 /// What is in force in a subdomain from step to step.
 #[derive(Debug, Clone, Default)]
 struct InForce {
@@ -173,7 +127,7 @@ impl AllInForce {
         model: &Model,
         index: &str,
         step: &Step,
-        stage: Option<&Stage>,
+        stage: Option<&StepStage>,
     ) -> Result<Vec<Option<Arc<Prestress>>>> {
         let mut all = Vec::new();
         for (b, own) in self.0.iter_mut().enumerate() {
@@ -192,7 +146,7 @@ impl AllInForce {
 
 impl InForce {
     /// A part that has gone has nothing any more, and one that comes is free of stress as it is then.
-    fn stage(&mut self, stage: &Stage, b: usize) {
+    fn stage(&mut self, stage: &StepStage, b: usize) {
         if stage.present[b] && !stage.activated.contains(&b) {
             return;
         }

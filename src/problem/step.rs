@@ -11,7 +11,7 @@ use super::quantity::Quantity;
 use super::{Prestress, prestress};
 use crate::assembly::Model;
 use crate::error::Result;
-use crate::scene::{Control, FormulaPlace, Stage};
+use crate::scene::{Control, FormulaPlace, StepStage};
 
 /// One step, bound.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ pub struct BoundStep {
     /// Name of the step.
     pub name: String,
     /// Parts that come and go in it; none if all are there, always.
-    pub stage: Option<Stage>,
+    pub stage: Option<StepStage>,
     /// Number of increments.
     pub increments: usize,
     /// Control from increment to increment.

@@ -12,7 +12,7 @@ use crate::assembly::Model;
 use crate::coupling::Support;
 use crate::error::Result;
 use crate::mesh::Group;
-use crate::scene::{Direction, FormulaPlace, Scene, Stage, Step, Value, Variable};
+use crate::scene::{Direction, FormulaPlace, Scene, Step, StepStage, Value, Variable};
 
 /// Two groups agree about a shared point if their displacements differ by less. Of the larger group's largest.
 const AGREE: f64 = 1e-12;
@@ -27,7 +27,7 @@ pub(super) struct Supports {
 
 impl Supports {
     /// Keeps parts that are not there at rest where nothing is: on their interfaces, all of them if they have none.
-    pub(super) fn take_away(&mut self, model: &Model, stage: &Stage) {
+    pub(super) fn take_away(&mut self, model: &Model, stage: &StepStage) {
         let joined = model.joined();
         for b in (0..model.subdomains.len()).filter(|&b| !stage.present[b]) {
             let dofs = model.dofs_of(b);

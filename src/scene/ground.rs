@@ -20,11 +20,11 @@ pub enum InitialStress {
 }
 
 /// Ground at rest below a level surface: σ_v = −q − ρ g (y₀ − y), σ_h = σ_zz = K₀ σ_v.
-#[derive(Debug, Clone, Copy, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ground {
     /// Acceleration (0, −g), as in the first step [length / time²].
-    pub gravity: [f64; 2],
+    pub gravity: [Value; 2],
     /// Height y₀ of the top of this ground [length].
     pub surface: f64,
     /// Vertical pressure q at y₀: the weight of what lies above, water included [stress]. Default 0.
@@ -69,7 +69,9 @@ impl Scene {
         match &subdomain.initial_stress {
             None => Ok(()),
             Some(InitialStress::Ground(Ground { gravity: [x, y], surface, overburden, k0 })) => {
-                if !(*x == 0.0 && *y < 0.0 && y.is_finite()) {
+                let points_down =
+                    x.constant() == Some(0.0) && y.constant().is_some_and(|y| y < 0.0 && y.is_finite());
+                if !points_down {
                     let what = format!("[{x}, {y}] does not point down");
                     return error_at("gravity", what, "give [0, -g], or the components of the stress");
                 }

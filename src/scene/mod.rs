@@ -32,7 +32,7 @@ pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
-pub use stages::Stage;
+pub use stages::{LeftShare, StepStage};
 pub use stated_law::StatedLaw;
 pub use value::Value;
 

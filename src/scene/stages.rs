@@ -6,7 +6,7 @@ use crate::error::Result;
 
 /// Changes of a step.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Stage {
+pub struct StepStage {
     /// True for every subdomain that is there in the step.
     pub present: Vec<bool>,
     /// Subdomains that come in it.
@@ -15,12 +15,23 @@ pub struct Stage {
     pub removed: Vec<usize>,
     /// Share of their forces on their neighbours that is still held at the start and at the end of the step, for those that
     /// have gone and are not wholly let go before.
-    pub left: Vec<(usize, [f64; 2])>,
+    pub left: Vec<LeftShare>,
+}
+
+/// Share of the forces of a part that has gone that is still held in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftShare {
+    /// Number of the subdomain.
+    pub subdomain: usize,
+    /// Share at the start of the step.
+    pub from: f64,
+    /// Share at its end.
+    pub to: f64,
 }
 
 impl Scene {
     /// The stages of all steps; empty if all parts are always there.
-    pub fn stages(&self) -> Result<Vec<Stage>> {
+    pub fn stages(&self) -> Result<Vec<StepStage>> {
         let count = self.subdomains.len();
         if self.steps.iter().all(|step| step.activate.is_empty() && step.deactivate.is_empty()) {
             return Ok(Vec::new());
@@ -31,7 +42,7 @@ impl Scene {
         for (number, step) in self.steps.iter().enumerate() {
             let index = number.to_string();
             let name = |b: usize| self.subdomains.get_index(b).map_or("", |(name, _)| name.as_str());
-            let mut stage = Stage::default();
+            let mut stage = StepStage::default();
             let before = left.clone();
             for (k, pattern) in step.activate.iter().enumerate() {
                 let path = ["steps", &index, "activate", &k.to_string()];
@@ -75,14 +86,14 @@ impl Scene {
                         return error_at(what, "give a larger share to let go more");
                     }
                     let from = if stage.removed.contains(&b) { 1.0 } else { before[b] };
-                    stage.left.push((b, [from, 1.0 - share]));
+                    stage.left.push(LeftShare { subdomain: b, from, to: 1.0 - share });
                     left[b] = 1.0 - share;
                 }
             }
             // what was held in part goes on being held
             for b in (0..count).filter(|&b| left[b] > 0.0) {
-                if !stage.left.iter().any(|(of, _)| *of == b) {
-                    stage.left.push((b, [left[b]; 2]));
+                if !stage.left.iter().any(|share| share.subdomain == b) {
+                    stage.left.push(LeftShare { subdomain: b, from: left[b], to: left[b] });
                 }
             }
             stage.present = present.clone();

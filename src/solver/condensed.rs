@@ -15,7 +15,7 @@ use super::dense::column_mut;
 use super::jacobian::Jacobian;
 use super::measure::Functional;
 use super::refine::Factored;
-use super::{Base, Form, LinearMeasure, NodalSolution, Ramp};
+use super::{Base, ForceScale, Form, LinearMeasure, NodalSolution, Ramp};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 use crate::sparse::Csr;
 
@@ -40,8 +40,7 @@ pub struct Condensed<'a> {
     targets: [Vec<f64>; 2],
     functionals: Vec<Functional>,
     jacobian: Jacobian,
-    /// Force against which residuals count at least.
-    reference: f64,
+    force_scale: ForceScale,
 }
 
 impl<'a> Condensed<'a> {
@@ -79,7 +78,7 @@ impl<'a> Condensed<'a> {
             targets,
             functionals,
             jacobian,
-            reference: 0.0,
+            force_scale: ForceScale::default(),
         }
     }
 
@@ -147,8 +146,8 @@ impl Form for Condensed<'_> {
         residual
     }
 
-    fn compare_with(&mut self, force: f64) {
-        self.reference = force;
+    fn compare_with(&mut self, scale: ForceScale) {
+        self.force_scale = scale;
     }
 
     /// Forces of the base stiffness for the misfit, over what the interfaces carry. If they carry nothing a small part of
@@ -161,7 +160,7 @@ impl Form for Condensed<'_> {
             let unlimited = squares(&self.base_stiffness[k].multiply(self.part(k, target)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
-        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
+        self.force_scale.error(misfit, scale)
     }
 
     /// Every term of the residual to the precision of numbers. Where nothing holds the interface, jumps run away: those are no

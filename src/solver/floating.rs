@@ -25,7 +25,7 @@ use super::lu::SparseLu;
 use super::modes::FloatingModes;
 use super::refine::Factored;
 use super::rigid_modes::most;
-use super::{Condensation, Continuum, Form, NodalSolution, NotPositiveDefinite};
+use super::{Condensation, Continuum, ForceScale, Form, NodalSolution, NotPositiveDefinite};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 use crate::sparse::Csr;
 
@@ -47,8 +47,7 @@ pub struct FloatingSubdomains<'a> {
     blocks: Vec<SubdomainBlock>,
     unknowns: usize,
     lu: SparseLu,
-    /// Force against which residuals count at least.
-    reference: f64,
+    force_scale: ForceScale,
 }
 
 impl<'a> FloatingSubdomains<'a> {
@@ -87,7 +86,7 @@ impl<'a> FloatingSubdomains<'a> {
             blocks,
             unknowns,
             lu: SparseLu::default(),
-            reference: 0.0,
+            force_scale: ForceScale::default(),
         })
     }
 
@@ -208,8 +207,8 @@ impl Form for FloatingSubdomains<'_> {
         residual
     }
 
-    fn compare_with(&mut self, force: f64) {
-        self.reference = force;
+    fn compare_with(&mut self, scale: ForceScale) {
+        self.force_scale = scale;
     }
 
     /// Forces of the base stiffness for the misfit of jumps, and the misfit of the bodies' balance, over what interfaces and loads carry.
@@ -230,7 +229,7 @@ impl Form for FloatingSubdomains<'_> {
             let unlimited = squares(&self.base_stiffness[k].multiply(self.part(k, &free)));
             scale += squares(&forces[k]) + SLIGHT * SLIGHT * unlimited;
         }
-        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
+        self.force_scale.error(misfit, scale)
     }
 
     /// Every term of the residual to the precision of numbers.

@@ -26,6 +26,29 @@ pub trait Respond: Sync {
     fn initial_stiffness(&self, interface: usize, point: usize, stiffness: &mut [f64]);
 }
 
+/// A residual below this part of the most that was carried is rounding.
+const NOTHING: f64 = 1e-13;
+
+/// Forces that residuals are compared with, beside those of the moment [force].
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ForceScale {
+    /// They count against this at least.
+    pub least: f64,
+    /// The most that was carried.
+    pub most: f64,
+}
+
+impl ForceScale {
+    /// Size of a misfit relative to the forces in the model, both squared.
+    pub(super) fn error(&self, misfit: f64, scale: f64) -> f64 {
+        match misfit.sqrt() <= NOTHING * self.most {
+            true if misfit == 0.0 => 0.0,
+            true => misfit.sqrt() / self.most,
+            false => (misfit / scale.max(self.least * self.least)).sqrt(),
+        }
+    }
+}
+
 /// One way to write the equilibrium.
 pub trait Form {
     /// All interfaces.
@@ -52,8 +75,8 @@ pub trait Form {
     fn coefficients(&self, x: &[f64]) -> Vec<Vec<f64>>;
     /// R(x) for the forces q of every active interface on its jump coefficients.
     fn residual(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> Vec<f64>;
-    /// Sets the force against which residuals count at least: where interfaces end without any, there is no other.
-    fn compare_with(&mut self, force: f64);
+    /// Sets the forces that residuals are compared with: where interfaces end without any, there is nothing else.
+    fn compare_with(&mut self, scale: ForceScale);
     /// Size of a residual, as a force, relative to the forces in the model.
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
     /// Residual that rounding alone may leave, measured like `error`.

@@ -42,7 +42,7 @@ pub use constraint::{Affine, Constraint};
 pub use cut::Cut;
 pub use evaluation::{Answers, ask};
 pub use floating::FloatingSubdomains;
-pub use form::{Form, Respond};
+pub use form::{ForceScale, Form, Respond};
 pub use iterate::{Iterate, NewtonSettings, PathPoint, Unconverged};
 pub use linear::{Linear, System};
 pub use measure::{LinearMeasure, Ramp};

@@ -9,7 +9,7 @@
 
 use super::linear::tractions;
 use super::lu::SparseLu;
-use super::{Form, NodalSolution};
+use super::{ForceScale, Form, NodalSolution};
 use crate::assembly::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 
 /// Rounding of one term of the residual, relative.
@@ -27,8 +27,7 @@ pub struct Primal<'a> {
     constrained: Vec<bool>,
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
-    /// Force against which residuals count at least.
-    reference: f64,
+    force_scale: ForceScale,
     lu: SparseLu,
 }
 
@@ -54,7 +53,7 @@ impl<'a> Primal<'a> {
             constrained,
             scale,
             lu: SparseLu::default(),
-            reference: 0.0,
+            force_scale: ForceScale::default(),
         }
     }
 
@@ -99,8 +98,8 @@ impl Form for Primal<'_> {
         (0..x.len()).map(|i| value(i) - target[i]).collect()
     }
 
-    fn compare_with(&mut self, force: f64) {
-        self.reference = force;
+    fn compare_with(&mut self, scale: ForceScale) {
+        self.force_scale = scale;
     }
 
     /// Over what the bodies, the interfaces and the loads carry; prescribed displacements are no forces.
@@ -119,7 +118,7 @@ impl Form for Primal<'_> {
                     .filter(|(_, constrained)| !**constrained)
                     .map(|(f, _)| *f),
             );
-        if misfit == 0.0 { 0.0 } else { (misfit / scale.max(self.reference * self.reference)).sqrt() }
+        self.force_scale.error(misfit, scale)
     }
 
     /// Jumps are differences of displacements: their rounding is that of the displacements, times the stiffness.

@@ -10,7 +10,7 @@
 //! straight. Where it bends, both numbers fall with the third power of the part; where a part jumps to another branch, the
 //! bend stays.
 
-use super::laws::{Laws, Old};
+use super::laws::{Laws, OldStates};
 use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
 use crate::history::converged::{Converged, PointResponse};
@@ -44,7 +44,7 @@ fn is_straight(law: &Law, old: &law::State, answer: &PointResponse) -> bool {
 /// The estimate for what was found last, after a growth of the load factor, under the load in the middle; none if the way there is straight.
 pub(super) fn error_of<F: Form>(
     view: &View<F>,
-    old: Old,
+    old: OldStates,
     found: &Converged,
     way: Way,
     advance: f64,
@@ -71,7 +71,7 @@ pub(super) fn error_of<F: Form>(
 
 fn over_the_middle<F: Form>(
     view: &View<F>,
-    old: Old,
+    old: OldStates,
     found: &Converged,
     way: Way,
     advance: f64,
@@ -97,7 +97,7 @@ fn over_the_middle<F: Form>(
     for (&k, memory) in form.active().iter().zip(&better.memory) {
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
-    let onwards = Laws::alone(problem, Old { states: &states, ..old }, 0.5 * advance);
+    let onwards = Laws::alone(problem, OldStates { states: &states, ..old }, 0.5 * advance);
     let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);

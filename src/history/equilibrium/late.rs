@@ -1,7 +1,7 @@
 //! Points of softening laws that crack in a part after others, and the first that does.
 
 use super::ON;
-use super::laws::{Laws, Old};
+use super::laws::{Laws, OldStates};
 use super::view::{ViewMut, target};
 use crate::history::converged::Converged;
 use crate::history::loading::StepLoad;
@@ -10,7 +10,7 @@ use crate::problem::Problem;
 use crate::solver::{Form, NewtonSettings, along, ask};
 
 /// Intact points of softening laws that crack in a part after others do; none if all crack at once.
-pub(super) fn late(problem: &Problem, old: Old, found: &Converged) -> Option<Vec<Vec<bool>>> {
+pub(super) fn late(problem: &Problem, old: OldStates, found: &Converged) -> Option<Vec<Vec<bool>>> {
     let mut fractions: Vec<Vec<f64>> = old.states.iter().map(|states| vec![f64::NAN; states.len()]).collect();
     let mut first = 1.0_f64;
     for of in &found.interfaces {
@@ -33,7 +33,7 @@ pub(super) fn late(problem: &Problem, old: Old, found: &Converged) -> Option<Vec
 /// They are held elastic, the equilibrium is corrected once, and some of them must be beyond its strength.
 pub(super) fn crack<F: Form>(
     view: &mut ViewMut<F>,
-    old: Old,
+    old: OldStates,
     found: &Converged,
     end: &StepLoad,
     settings: NewtonSettings,
@@ -64,7 +64,7 @@ pub(super) fn crack<F: Form>(
 /// the tangent.
 pub(super) fn first_onset<F: Form>(
     view: &mut ViewMut<F>,
-    old: Old,
+    old: OldStates,
     [load, now]: [&StepLoad; 2],
     end: Option<Vec<f64>>,
     settings: NewtonSettings,

@@ -12,15 +12,15 @@ const STIFF: f64 = 0.1;
 
 /// States of the law points from which a part starts, and which interfaces are there.
 #[derive(Clone, Copy)]
-pub(in crate::history) struct Old<'a> {
+pub(in crate::history) struct OldStates<'a> {
     pub(in crate::history) states: &'a [Vec<law::State>],
     pub(in crate::history) presence: &'a Presence,
 }
 
-impl<'a> Old<'a> {
+impl<'a> OldStates<'a> {
     /// Those of a state that is written.
-    pub(in crate::history) fn of(snapshot: &'a Snapshot) -> Old<'a> {
-        Old { states: &snapshot.states, presence: &snapshot.presence }
+    pub(in crate::history) fn of(snapshot: &'a Snapshot) -> OldStates<'a> {
+        OldStates { states: &snapshot.states, presence: &snapshot.presence }
     }
 }
 
@@ -32,7 +32,7 @@ impl<'a> Old<'a> {
 #[derive(Clone, Copy)]
 pub(in crate::history) struct Laws<'a> {
     pub(in crate::history) problem: &'a Problem,
-    pub(in crate::history) old: Old<'a>,
+    pub(in crate::history) old: OldStates<'a>,
     /// c [stress / length], if there is one.
     pub(in crate::history) viscosity: Option<f64>,
     /// Friction lags wherever it is steep, not only where its slope has no bound.
@@ -45,7 +45,7 @@ pub(in crate::history) struct Laws<'a> {
 
 impl<'a> Laws<'a> {
     /// The laws alone.
-    pub(in crate::history) fn alone(problem: &'a Problem, old: Old<'a>, advance: f64) -> Laws<'a> {
+    pub(in crate::history) fn alone(problem: &'a Problem, old: OldStates<'a>, advance: f64) -> Laws<'a> {
         Laws { problem, old, viscosity: None, lags: false, advance, intact: None }
     }
 
@@ -88,7 +88,8 @@ impl Respond for Laws<'_> {
             return Ok(PointResponse::default());
         }
         if self.old.presence.is_absent(interface) {
-            (traction.fill(0.0), stiffness.fill(0.0));
+            traction.fill(0.0);
+            stiffness.fill(0.0);
             let state = law::State { traction: Local::zeros(), ..self.old.states[interface][point] };
             return Ok(PointResponse { state, ..PointResponse::default() });
         }

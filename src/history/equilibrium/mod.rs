@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use super::converged::Converged;
 use super::loading::StepLoad;
 use super::state::ModelState;
-use crate::solver::{LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp, Unconverged};
+use crate::solver::{ForceScale, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp, Unconverged};
 
 /// Failure of the search for the equilibrium of an increment.
 #[derive(Debug)]
@@ -29,6 +29,9 @@ pub(in crate::history) enum Failure {
     /// Nothing will help: rounding or overflow leaves this backward error.
     Unusable(f64),
 }
+
+/// Part of the most that was carried against which a residual counts where nothing is.
+const AT_REST: f64 = 1e-3;
 
 /// Points that reach their surface within this fraction of a part do so at once.
 const ON: f64 = 1e-6;
@@ -51,8 +54,7 @@ pub(in crate::history) struct Search {
     first: bool,
     /// Load factor of the last accepted state in its step.
     load_factor: f64,
-    /// The largest norm that the forces have had: residuals count against it at least. Where the load is taken off there is no
-    /// other measure [force].
+    /// The largest norm that the forces have had [force].
     most: f64,
 }
 
@@ -64,6 +66,12 @@ impl Search {
         }
         let along = |(now, before): (&f64, &f64)| now + ahead * (now - before);
         self.unknowns.iter().zip(&self.before).map(along).collect()
+    }
+
+    /// Residuals count against what was carried at the last accepted increment at least, and a small part of the most that ever
+    /// was: where the load is taken off there is nothing else.
+    fn force_scale(&self) -> ForceScale {
+        ForceScale { least: norm(&self.forces).max(AT_REST * self.most), most: self.most }
     }
 
     /// Takes unknowns, forces and viscous tractions of what is accepted; those before come back in their places.

@@ -1,6 +1,6 @@
 //! Newton's method as the engine of a history: forms made for each set of supports, laws asked with the committed states.
 
-use super::laws::{Laws, Old, may_lag};
+use super::laws::{Laws, OldStates, may_lag};
 use super::strategy::active;
 use super::view::{View, ViewMut, target};
 use super::{
@@ -104,7 +104,7 @@ impl<F: Form> NewtonEngine<'_, F> {
         complete: bool,
     ) -> Result<Converged, Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        form.compare_with(self.search.most);
+        form.compare_with(self.search.force_scale());
         let mut target = target(form, self.prepared, load)?;
         let (mut residuals, mut passes) = (Vec::new(), 0);
         // the first increment of a step shows whether displacements are needed against the rounding of the others
@@ -215,7 +215,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             self.search.onwards(NEAR * changes),
             self.search.onwards(if near { NEAR * changes } else { changes }),
         ];
-        let laws = Laws::alone(self.problem, Old::of(&state.snapshot), self.advance(load));
+        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load));
         self.solve_from(starts, &laws, load, complete)
     }
 
@@ -228,7 +228,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     ) -> Result<Converged, Failure> {
         let starts = [self.search.unknowns.clone(), self.search.onwards(ahead)];
         let lags = self.search.lags && may_lag(self.problem, viscosity);
-        let alone = Laws::alone(self.problem, Old::of(&state.snapshot), self.advance(load));
+        let alone = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load));
         let laws = Laws { viscosity: Some(viscosity), lags, ..alone };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
@@ -251,21 +251,21 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     }
 
     fn estimate(&mut self, state: &ModelState, found: &Converged, way: Way) -> Option<Estimate> {
-        estimate::error_of(&self.view()?, Old::of(&state.snapshot), found, way, self.sought)
+        estimate::error_of(&self.view()?, OldStates::of(&state.snapshot), found, way, self.sought)
     }
 
     fn is_reached(&mut self, state: &ModelState, found: &Converged, end: &StepLoad) -> bool {
         let settings = self.settings;
-        let reached = self
-            .view_mut()
-            .and_then(|mut view| late::crack(&mut view, Old::of(&state.snapshot), found, end, settings));
+        let reached = self.view_mut().and_then(|mut view| {
+            late::crack(&mut view, OldStates::of(&state.snapshot), found, end, settings)
+        });
         reached.unwrap_or(false)
     }
 
     fn onset(&mut self, state: &ModelState, load: &StepLoad, now: &StepLoad, ahead: f64) -> Option<f64> {
         let end = if ahead > 0.0 { Some(self.search.onwards(ahead)) } else { None };
         let settings = self.settings;
-        late::first_onset(&mut self.view_mut()?, Old::of(&state.snapshot), [load, now], end, settings)
+        late::first_onset(&mut self.view_mut()?, OldStates::of(&state.snapshot), [load, now], end, settings)
     }
 
     fn imbalance(&self, state: &ModelState, load: &StepLoad) -> f64 {
@@ -281,8 +281,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         path: &PathSearch,
     ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
-        form.compare_with(self.search.most);
-        let laws = Laws::alone(self.problem, Old::of(&state.snapshot), f64::INFINITY);
+        form.compare_with(self.search.force_scale());
+        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), f64::INFINITY);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = PathPoint { x: self.search.unknowns.clone(), load_factor };
