@@ -125,6 +125,14 @@ fn a_million_steps_of_elastic_joints_that_close() {
             let shear = initial + jump * kt - response.traction;
             assert!(shear.y.abs().max(shear.z.abs()) <= ROUNDING * size, "{own:?} {state:?} {jump:?}");
             assert!(response.dissipation == 0.0 && response.released == 0.0);
+            // the slope by central differences, away from the kink of its derivative at no traction
+            let room = if u < 0.0 { closure.maximum + u } else { closure.maximum };
+            let step = 1e-4 * room.min(u.abs());
+            let at = |shift: f64| law.respond(jump + Local::x() * shift, &state, STEP).unwrap().traction.x;
+            let slope = (at(step) - at(-step)) / (2.0 * step);
+            let exact = response.stiffness[(0, 0)];
+            let rounding = ROUNDING * size / step;
+            assert!((slope - exact).abs() <= 1e-6 * exact + rounding, "{slope} {exact} {own:?} {jump:?}");
             (state, steps) = (response.state, steps + 1);
         }
     }

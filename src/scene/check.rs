@@ -261,7 +261,7 @@ impl Scene {
             };
             for variable in [Variable::S, Variable::LoadFactor] {
                 if value.uses(variable) {
-                    let what = format!("{} in \"{value}\"", variable.name());
+                    let what = format!("{} in {value}", variable.name());
                     let help = "write it in x and y: it is ramped to its value at the end of the step";
                     return Err(self.source.error_at(&path, what, help));
                 }

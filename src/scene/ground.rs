@@ -93,7 +93,7 @@ impl Scene {
                 for (key, value) in components.keys() {
                     for variable in [Variable::S, Variable::LoadFactor] {
                         if value.uses(variable) {
-                            let what = format!("{} in \"{value}\"", variable.name());
+                            let what = format!("{} in {value}", variable.name());
                             return error_at(key, what, "the stress of a body is a formula in x and y");
                         }
                     }
