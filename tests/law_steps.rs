@@ -8,7 +8,7 @@ use midplane::law::{
 };
 
 const STEP: Integration = Integration::Tolerance(1e-4);
-/// Of the traction, or with a closure of what its slope makes of the last digit of a jump.
+/// Rounding of a traction, relative; with a closure to its slope times the jump.
 const ROUNDING: f64 = 1e-12;
 const STEPS: usize = 1_000_000;
 

@@ -262,3 +262,15 @@ fn a_load_may_be_taken_off_wholly() {
         }
     }
 }
+
+/// Statics alone: p (1 + x) on the top turns about the middle of the joint by p/12 per thickness.
+#[test]
+fn the_moment_of_a_joint_is_that_of_the_load_above() {
+    let steps =
+        format!(r#"{{ "name": "press", {HELD}, "load": {{ "upper.top": {{ "pressure": "2*(1 + x)" }} }} }}"#);
+    let problem =
+        two_squares(HEAD, SPRINGS, &steps, r#""m": "joint.moment", "n": "joint.resultant_n""#).unwrap();
+    let values = last(&problem);
+    close(values[0], -0.5 * 2.0 / 12.0, 1e-11, 1.0, "moment");
+    close(values[1], -0.5 * 3.0, 1e-11, 1.0, "force");
+}

@@ -81,7 +81,7 @@ fn a_lift_comes_where_its_neighbours_are() {
     }
 }
 
-/// What lies on a goes by half, waits, and goes wholly; what b stored goes with it.
+/// Forces of b on a go by half, wait, and go wholly; the energy stored in b goes with it.
 #[test]
 fn forces_are_held_and_let_go() {
     let load = r#"{ "name": "load", "load": { "b.top": { "pressure": 30 } } }"#;
@@ -169,6 +169,22 @@ fn ground_is_dug_and_filled() {
     close(top(&problem, last, 1), -scale * (1.0 + E / K + 0.5), 1e-10, scale, "what was filled settles");
     for s in &last.snapshot.stresses[1].nodes {
         assert!(s[1] <= 1e-9 && s[1] >= -GAMMA[1] - 1e-9, "{s:?}");
+    }
+}
+
+/// Strains of a part count from when it comes: those before leave no stress, later ones move its free top by Δε H.
+#[test]
+fn strains_of_a_part_count_from_when_it_comes() {
+    let steps = r#"{ "name": "before", "fix": { "a.bottom": ["x", "y"] }, "strain": { "b": [0, 3e-4, 0, 0] } },
+        { "name": "come", "activate": ["b"] }, { "name": "after", "strain": { "b": [0, 5e-4, 0, 0] } }"#;
+    for law in [ELASTIC, CRACKING] {
+        let problem = stack(law, "auto", steps).unwrap();
+        let (states, _) = solve(&problem);
+        for (state, exact) in states.iter().zip([0.0, 0.0, 2e-4]) {
+            close(top(&problem, state, 1), exact, 1e-12, 1e-4, "free top");
+            let stresses = state.snapshot.stresses[1].cells.iter().flatten();
+            assert!(stresses.into_iter().all(|s| s.abs() < 1e-10), "no stress");
+        }
     }
 }
 

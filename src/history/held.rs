@@ -17,7 +17,7 @@ pub(super) struct HeldForces {
 }
 
 impl HeldForces {
-    /// Those of a part.
+    /// Forces of a part on its neighbours, by dof.
     pub(super) fn new(subdomain: usize, force: Vec<f64>) -> HeldForces {
         HeldForces { subdomain, force }
     }

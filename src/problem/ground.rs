@@ -15,7 +15,7 @@ pub(super) enum StressAt {
 }
 
 impl StressAt {
-    /// That of every subdomain, where it has one.
+    /// Initial stress of every subdomain that has one.
     pub(super) fn all(scene: &Scene, model: &Model) -> Vec<Option<StressAt>> {
         let of = |(b, (name, stated)): (usize, (&String, &Subdomain))| {
             Some(match stated.initial_stress.as_ref()? {

@@ -1,4 +1,4 @@
-//! What is there before the first load: tractions of interfaces, and loads that hold everything as it is.
+//! State in situ, before the first load: tractions of interfaces, and the loads in equilibrium with them and the initial stress.
 //!
 //! ```text
 //! t₀ = σ n, σ the mean of both sides        f = ∫ Bᵀ σ₀ + Gᵀ t₀: the first step ramps from it to its loads, not from nothing
@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// Tractions of both sides that differ by less, of the largest, differ by rounding.
 const ALIKE: f64 = 1e-6;
-/// The same of forces that are out of balance, of the weight.
+/// Forces out of balance below this part of the weight are rounding.
 const BALANCED: f64 = 1e-6;
 
 /// Warnings of interfaces whose sides do not agree, or not with what the scene states there.

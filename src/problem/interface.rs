@@ -8,14 +8,14 @@ use crate::error::Result;
 use crate::law::{self, Integration, Local};
 use crate::scene::{Scene, StepStage};
 
-/// Whether the parts that an interface joins come or go.
+/// Presence of the parts that an interface joins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum JoinedParts {
-    /// They are always there.
+    /// Always there.
     Stay,
-    /// They are there at first.
+    /// There at first.
     Go,
-    /// They are not there at first.
+    /// Absent at first.
     Absent,
 }
 

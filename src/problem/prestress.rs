@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::scene::{FormulaPlace, Scene, Step, StepStage, Value};
 use crate::shape::Ends;
 
-/// What a body has beyond the stresses of its strains, at the start and at the end of a step, between which it is affine.
+/// Initial stress, eigenstrain and temperature of a body at the start and at the end of a step, affine in between.
 #[derive(Debug, Clone)]
 pub struct Prestress {
     /// σ_p at the points of the stiffness rule [stress].
@@ -71,7 +71,7 @@ fn between<T>(
     }
 }
 
-/// What is in force in a subdomain from step to step.
+/// Initial stress and eigenstrains in force in a subdomain, from step to step.
 #[derive(Debug, Clone, Default)]
 struct InForce {
     /// Initial stress and its forces.
@@ -86,7 +86,7 @@ struct InForce {
     last: Option<(Arc<PointField>, Arc<Vec<f64>>)>,
 }
 
-/// What is in force in all subdomains.
+/// Initial stresses and eigenstrains in force in all subdomains.
 pub(super) struct AllInForce(Vec<InForce>);
 
 impl AllInForce {
@@ -246,7 +246,7 @@ impl InForce {
         }
     }
 
-    /// The same as the part counts it.
+    /// ε* from the moment at which the part came.
     fn strain(&self) -> Option<PointField> {
         match &self.reference {
             Some(reference) => self.in_force().map(|all| all.plus(reference, -1.0)),
@@ -259,7 +259,7 @@ fn in_body([x, y, z]: [f64; 3]) -> FormulaPlace {
     FormulaPlace { x, y, z, s: 0.0, load_factor: 1.0 }
 }
 
-/// Nodal forces of what bodies have beyond the stresses of their strains at a load factor; none if they have nothing [force].
+/// Nodal forces of initial stresses and eigenstrains at a load factor; none without any [force].
 pub(super) fn forces(model: &Model, all: &[Option<Arc<Prestress>>], load_factor: f64) -> Option<Vec<f64>> {
     if all.is_empty() {
         return None;

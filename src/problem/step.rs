@@ -40,7 +40,7 @@ pub struct BoundStep {
     pub(super) force_start: Vec<f64>,
     /// The same at its end.
     pub(super) force_end: Vec<f64>,
-    /// What bodies have beyond the stresses of their strains, subdomain by subdomain; empty if none has anything.
+    /// Initial stresses and eigenstrains, subdomain by subdomain; empty without any.
     pub prestress: Vec<Option<Arc<Prestress>>>,
     /// Loads that follow a formula in load_factor.
     pub(super) changing: Vec<Arc<BoundLoad>>,
@@ -94,12 +94,12 @@ impl BoundStep {
         u
     }
 
-    /// Nodal forces of what bodies have beyond the stresses of their strains; none if they have nothing [force].
+    /// Nodal forces of initial stresses and eigenstrains; none without any [force].
     pub fn prestress_forces(&self, model: &Model, load_factor: f64) -> Option<Vec<f64>> {
         prestress::forces(model, &self.prestress, load_factor)
     }
 
-    /// Energy of the strains that bodies have of their own, were they held [force × length].
+    /// Energy of the eigenstrains in rigid confinement, ½ ∫ ε*ᵀ C ε* [force × length].
     pub fn own_strain_energy(&self, load_factor: f64) -> f64 {
         self.prestress.iter().flatten().map(|own| own.energy(load_factor)).sum()
     }

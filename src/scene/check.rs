@@ -204,7 +204,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What is not there is neither held nor loaded, and has no stress at the start.
+    /// Supports, loads and initial stresses of absent parts are refused.
     fn check_stages(&self) -> Result<()> {
         let stages = self.stages()?;
         if stages.is_empty() {

@@ -13,7 +13,7 @@ use crate::error::Result;
     expecting = "neither {\"xx\", \"yy\", \"zz\", \"xy\"} nor {\"gravity\", \"surface\", \"overburden\", \"k0\"}"
 )]
 pub enum InitialStress {
-    /// What the weight above makes.
+    /// Ground at rest.
     Ground(Ground),
     /// Its components.
     Components(StressComponents),

@@ -32,7 +32,7 @@ const NOTHING: f64 = 1e-13;
 /// Forces that residuals are compared with, beside those of the moment [force].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ForceScale {
-    /// They count against this at least.
+    /// Least scale of a residual.
     pub least: f64,
     /// The most that was carried.
     pub most: f64,

@@ -18,7 +18,7 @@ pub(in crate::history) struct OldStates<'a> {
 }
 
 impl<'a> OldStates<'a> {
-    /// Those of a state that is written.
+    /// States of the last accepted increment.
     pub(in crate::history) fn of(snapshot: &'a Snapshot) -> OldStates<'a> {
         OldStates { states: &snapshot.states, presence: &snapshot.presence }
     }
