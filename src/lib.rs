@@ -38,3 +38,4 @@ pub mod shape;
 pub mod solver;
 pub mod sparse;
 pub mod study;
+pub mod water;

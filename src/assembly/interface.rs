@@ -82,6 +82,14 @@ impl InterfaceOperator {
         jumps
     }
 
+    /// The normal jump at a law point as weights on the jump coefficients.
+    pub fn normal_jump(&self, point: usize) -> Vec<(usize, f64)> {
+        let (c, point) = (self.coupling.components, &self.coupling.points[point]);
+        let normal = self.rotation(point)[0];
+        let of = |&(i, n): &(usize, f64)| (0..c).map(move |d| (c * i + d, n * normal[d]));
+        point.interpolation.iter().flat_map(of).filter(|(_, weight)| *weight != 0.0).collect()
+    }
+
     /// Forces on the jump coefficients, q = h Σ w Nᵀ Rᵀ t, of tractions (n, t, …) at the law points.
     pub fn gather(&self, tractions: &[f64]) -> Vec<f64> {
         let c = self.coupling.components;

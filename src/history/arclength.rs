@@ -23,7 +23,7 @@ pub(super) fn arc(
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
         let (ahead, last) = if first { (0.0, ratio * part) } else { (ratio, at.change) };
-        let path = PathSearch { ramp, amount: None, ahead, last };
+        let path = PathSearch { step: start.step(), ramp, amount: None, ahead, last };
         match follow(analysis, start, &path, at, part)? {
             Followed::Taken { iterations, growth } => {
                 at.ratio = growth;

@@ -38,6 +38,10 @@ pub(in crate::history) struct PointResponse {
     pub(in crate::history) released: f64,
     /// Viscous traction at its end.
     pub(in crate::history) viscous: Local,
+    /// Derivative of its damage by the jump.
+    pub(in crate::history) damage_gradient: Local,
+    /// Pressure that depends on the jumps, taken off the traction.
+    pub(in crate::history) pressure: f64,
 }
 
 /// An increment that converged.

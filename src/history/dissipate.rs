@@ -49,7 +49,7 @@ pub(super) fn intact(
     let mut amount = FIRST * analysis.state.stored;
     let mut why = Unconverged { reason: "nothing to go on".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
-        let path = PathSearch { ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
+        let path = PathSearch { step: start.step(), ramp, amount: Some(amount), ahead: 0.0, last: 0.0 };
         match analysis.engine.follow(&analysis.state, at.load_factor, &path) {
             Ok((found, load_factor)) if far(analysis, at, &found) <= WIDE * TRACTIONS * part => {
                 let judged = judge(
@@ -112,7 +112,7 @@ pub(super) fn along(
     let mut amount = at.amount;
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
-        let path = PathSearch { ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
+        let path = PathSearch { step: start.step(), ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
         match follow(analysis, start, &path, at, part)? {
             Followed::Taken { iterations, growth } => {
                 at.amount = amount * growth;

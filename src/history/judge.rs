@@ -36,7 +36,7 @@ pub(super) fn judge(
     }
     let [middle, end] = [start.at(0.5 * (from + to))?, start.at(to)?];
     let ends = if follows { Some([start.at(0.0)?, start.at(1.0)?]) } else { None };
-    let way = Way { middle: &middle, ends: ends.as_ref() };
+    let way = Way { middle: &middle, end: &end, ends: ends.as_ref() };
     let Some(estimate) = analysis.engine.estimate(&analysis.state, found, way) else {
         return Ok(Judged { error: 0.0, cracked: false, solved: 0, passed: 0.0, work: 0.0 });
     };

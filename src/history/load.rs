@@ -42,7 +42,12 @@ pub(super) fn prepare(
     let problem = analysis.problem;
     let known = active(problem).len() == problem.model.interfaces.len() || analysis.engine.finds_all_jumps();
     let unstored =
-        problem.fields != Fields::Every && known && !follows && !step.warms() && step.stage.is_none();
+        problem.fields != Fields::Every
+        && known
+        && !follows
+        && !step.warms()
+        && step.stage.is_none()
+        && problem.interfaces.iter().all(|interface| !interface.coupled_pressure);
     let measures: Vec<LinearMeasure> =
         ramp.filter(|_| unstored).map(|ramp| start.measures(ramp)).unwrap_or_default();
     let thrifty = !measures.is_empty() && measures.len() < step.increments;

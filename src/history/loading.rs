@@ -33,6 +33,11 @@ pub(super) struct LoadForces {
 }
 
 impl StepLoad<'_> {
+    /// The step, and the load factor in it.
+    pub(super) fn at(&self) -> (&BoundStep, f64) {
+        (self.start.step, self.load_factor)
+    }
+
     /// Number of the step.
     pub(super) fn step(&self) -> usize {
         self.start.step.number
@@ -69,6 +74,11 @@ pub(super) struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
+    /// The step.
+    pub(super) fn step(&self) -> &'a BoundStep {
+        self.step
+    }
+
     /// Displacements and reactions at the end of the step before.
     pub(super) fn before(&self) -> [&[f64]; 2] {
         [&self.u, &self.reactions]

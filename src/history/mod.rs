@@ -39,6 +39,7 @@ mod stretch;
 mod totals;
 mod trial;
 mod viscous;
+mod water;
 
 pub use balance::{Resultant, resultant};
 pub use beyond::Beyond;

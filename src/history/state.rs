@@ -16,10 +16,11 @@ use super::energy::{across, carried, work_to};
 use super::held::{HeldForces, presence_at_first};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use super::prestress::{holding, stresses, warmed};
+use super::water::{water_at, water_work};
 use crate::assembly::InterfaceOperator;
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
-use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
+use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem, WaterFields};
 use crate::solver::NodalSolution;
 
 /// The model after an increment.
@@ -44,6 +45,8 @@ pub struct ModelState {
     pub work: f64,
     /// Energy released by snaps so far [force × length].
     pub released: f64,
+    /// Work of the pressures in interfaces so far, part of `work` [force × length].
+    pub water_work: f64,
     /// Largest energy so far [force × length].
     largest: f64,
     /// Measures of a step without displacements; none outside such a step.
@@ -83,6 +86,7 @@ impl ModelState {
             dissipated,
             work,
             released,
+            water_work: 0.0,
             largest,
             ledger: None,
             found: vec![false; problem.interfaces.len()],
@@ -131,6 +135,7 @@ impl ModelState {
             }
         }
         self.ledger = ledger;
+        let before = (std::mem::take(&mut self.snapshot.water), self.snapshot.jumps.clone());
         (self.snapshot.u, self.force, self.reactions) = (Vec::new(), Vec::new(), Vec::new());
         if let Some(NodalSolution { u, mut reactions, .. }) = solution {
             let LoadForces { force, released, .. } = load.into_forces();
@@ -154,8 +159,27 @@ impl ModelState {
             self.snapshot.jumps[interface] = jumps.into_iter().enumerate().map(counted).collect();
             self.found[interface] = true;
         }
+        self.take_water(problem, &before);
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
+    }
+
+    /// Pressures after a part, and their work in it.
+    fn take_water(&mut self, problem: &Problem, (water, jumps): &(WaterFields, Vec<Vec<Local>>)) {
+        if problem.steps.iter().all(|step| step.water.is_none()) {
+            return;
+        }
+        for (k, interface) in problem.model.interfaces.iter().enumerate() {
+            if !self.found[k] && self.is_complete() {
+                let jumps = interface.jumps(&self.snapshot.u);
+                self.snapshot.jumps[k] = jumps.chunks_exact(problem.model.components).map(local).collect();
+            }
+        }
+        self.snapshot.water = water_at(problem, &self.snapshot, self.at);
+        let now = (&self.snapshot.water, &self.snapshot.jumps[..]);
+        let [all, coupled] = water_work(problem, (water, jumps), now);
+        self.water_work += all;
+        self.work += coupled;
     }
 
     /// Counts as an equilibrium of the laws alone, which leave this residual.
@@ -265,6 +289,8 @@ impl ModelState {
             dissipated: self.dissipated,
             released: self.released,
             viscous: self.viscous_work(problem),
+            water: &self.snapshot.water,
+            water_work: self.water_work,
             work: self.work,
         };
         let mut columns =

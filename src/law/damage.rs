@@ -68,6 +68,7 @@ impl PointLaw for Damage {
             state: State { jump, traction, own, status: u8::from(d > 0.0), ..*old },
             dissipation: k * self.failure_jump.powi(2) * (d.powi(3) - d0.powi(3)) / 6.0,
             dissipation_gradient: slope * (0.5 * k * size * size),
+            damage_gradient: Local::zeros(),
             released: 0.0,
         })
     }

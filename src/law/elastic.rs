@@ -102,6 +102,7 @@ impl PointLaw for Elastic {
             state: State { jump, traction, ..*old },
             dissipation: 0.0,
             dissipation_gradient: Local::zeros(),
+            damage_gradient: Local::zeros(),
             released: 0.0,
         })
     }

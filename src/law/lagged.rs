@@ -72,6 +72,7 @@ pub(super) fn lagged(
         },
         dissipation: keep(own.dissipation),
         dissipation_gradient: tangential(own.dissipation_gradient) * keep(1.0),
+        damage_gradient: tangential(own.damage_gradient) * keep(1.0),
         released,
     }
 }

@@ -78,6 +78,11 @@ pub trait PointLaw {
         0.5 * t.component_mul(&t).component_div(&Local::from(self.elastic_stiffness())).sum()
     }
 
+    /// Share of a point's strength in tension that is spent, 0 to 1; none for a law without.
+    fn damage(&self, _state: &State) -> Option<f64> {
+        None
+    }
+
     /// Variables of an intact point.
     fn intact(&self) -> [f64; OWN] {
         [0.0; OWN]

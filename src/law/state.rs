@@ -54,6 +54,8 @@ pub struct Response {
     pub dissipation: f64,
     /// ∂dissipation/∂jump [stress].
     pub dissipation_gradient: Local,
+    /// ∂damage/∂jump of a law that has a damage (`PointLaw::damage`) [1 / length].
+    pub damage_gradient: Local,
     /// Energy per area lost at once by a drop of the traction within the increment, not part of the dissipation
     /// [stress × length]; the cohesion of `coulomb` faces that part, zero for the other laws.
     pub released: f64,

@@ -5,7 +5,7 @@ use super::vtu::{Array, Data, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
-use crate::law::{self, LawVariable, Local, State};
+use crate::law::{self, LawVariable, Local, N, State};
 use crate::problem::PointLaws;
 
 /// A body: displacement, stress at points and cells, principal stress.
@@ -52,11 +52,12 @@ pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
     }
 }
 
-/// The law points of an interface in order along C, joined by lines; `variables`: of which laws there are arrays.
+/// The law points of an interface in order along C, joined by lines; `variables`: of which laws there are arrays. `water`: there are
+/// pressures, and flow.
 pub(super) fn interface(
     interface: &InterfaceOperator,
-    laws: &PointLaws,
-    variables: &[&LawVariable],
+    (laws, variables): (&PointLaws, &[&LawVariable]),
+    [pressure, flow]: [bool; 2],
     index: usize,
     snapshot: &Snapshot,
     time: f64,
@@ -98,6 +99,18 @@ pub(super) fn interface(
         local("jump_plastic", &plastic),
         local("traction", &snapshot.tractions[index]),
     ];
+    let (water, none) = (&snapshot.water, vec![0.0; n]);
+    let values = |of: &[Vec<f64>]| of.get(index).filter(|own| !own.is_empty()).unwrap_or(&none).clone();
+    if pressure {
+        let pressures = values(&water.pressures);
+        let mut total = snapshot.tractions[index].clone();
+        total.iter_mut().zip(&pressures).for_each(|(traction, pressure)| traction[N] -= pressure);
+        point_data.extend([local("traction_total", &total), Array::float("pressure", 1, pressures)]);
+    }
+    if flow {
+        let rates = Array::float("rate", 1, values(&water.rates));
+        point_data.extend([rates, Array::float("hydraulic_aperture", 1, values(&water.apertures))]);
+    }
     point_data.extend(own);
     point_data.extend([
         Array::int("status", states.iter().map(|state| if is_absent { -1 } else { i64::from(state.status) })),

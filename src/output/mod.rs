@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::continuum::Stresses;
 use crate::law::{self, Local};
+use crate::problem::WaterFields;
 
 /// One state of the model, as it is written.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -34,6 +35,8 @@ pub struct Snapshot {
     pub states: Vec<Vec<law::State>>,
     /// Parts that are there.
     pub presence: Presence,
+    /// Water in the interfaces.
+    pub water: WaterFields,
 }
 
 /// Parts that are there, where some come and go; empty where all are there, always.

@@ -79,7 +79,9 @@ impl Writer {
                 fields::subdomain(model, i, snapshot, time)
             } else {
                 let k = i - subdomains;
-                fields::interface(&model.interfaces[k], &interfaces[k].laws, &variables, k, snapshot, time)
+                let water = problem.water_in(k);
+                let laws = &interfaces[k].laws;
+                fields::interface(&model.interfaces[k], (laws, &variables), water, k, snapshot, time)
             };
             files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
         })?;

@@ -43,7 +43,7 @@ impl StressAt {
                 Ok([horizontal, vertical, if *out_of_plane { horizontal } else { 0.0 }, 0.0])
             }
             StressAt::Components(components) => {
-                let place = FormulaPlace { x, y, z, s: 0.0, load_factor: 0.0 };
+                let place = FormulaPlace { x, y, z, s: 0.0, load_factor: 0.0, ..FormulaPlace::default() };
                 let mut stress = [0.0; 4];
                 for (stress, component) in stress.iter_mut().zip(components) {
                     *stress = component.at(&place)?;

@@ -6,9 +6,11 @@ use indexmap::IndexMap;
 
 use super::ground::StressAt;
 use super::load::BoundLoad;
+use super::pressures::{self, Stated};
 use super::prestress::AllInForce;
 use super::step::BoundStep;
 use super::supports::{Supports, dofs, hold_and_release, named, prescribed, support};
+use super::water::WaterInForce;
 use super::{BoundInterface, in_situ};
 use crate::assembly::Model;
 use crate::error::{Result, Warning};
@@ -45,6 +47,7 @@ pub(super) fn steps(
     let mut supports = Supports::none(model.dofs());
     let mut reactions: IndexMap<(String, usize), Reaction> = IndexMap::new();
     let mut loads = Loads::new();
+    let mut water = WaterInForce::new(model);
     let mut force = vec![0.0; model.dofs()];
     let mut steps = Vec::new();
     let (mut in_force, mut unbalanced) = (AllInForce::new(scene, model, stresses)?, None);
@@ -52,10 +55,12 @@ pub(super) fn steps(
     for (number, step) in scene.steps.iter().enumerate() {
         let index = number.to_string();
         let stage = stages.get(number);
-        let is_there = |load: &BoundLoad| stage.is_none_or(|stage| stage.present[load.subdomain()]);
-        let stays = |load: &BoundLoad| {
-            is_there(load) && stage.is_none_or(|stage| !stage.activated.contains(&load.subdomain()))
+        let all = |parts: &[usize]| stage.is_none_or(|stage| parts.iter().all(|b| stage.present[*b]));
+        let stay = |parts: &[usize]| {
+            all(parts) && stage.is_none_or(|stage| !parts.iter().any(|b| stage.activated.contains(b)))
         };
+        let is_there = |load: &BoundLoad| all(load.subdomains());
+        let stays = |load: &BoundLoad| stay(load.subdomains());
         let constrained =
             named("hold", &step.hold).map(|(key, group, direction)| (key, group, direction, None));
         for (key, group, direction, _) in prescribed(step).chain(constrained) {
@@ -65,7 +70,8 @@ pub(super) fn steps(
         }
         let (moving, here) = support(scene, model, &index, step, &mut supports)?;
         let released = hold_and_release(scene, model, &index, step, here, &mut supports)?;
-        let given = given(scene, model, &index, step)?;
+        let stated = pressures::stated(scene, model, interfaces, &index, step)?;
+        let given = given(scene, model, interfaces, (&index, step), &stated)?;
         let changing: Loads = given
             .clone()
             .into_iter()
@@ -84,6 +90,8 @@ pub(super) fn steps(
         for load in changing.values() {
             load.add(model, 1.0, &mut force)?;
         }
+        let there = [&stay as &dyn Fn(&[usize]) -> bool, &all];
+        let water = water.step(scene, model, number, &stated, there)?.map(Arc::new);
         let prestress = in_force.step(scene, model, &index, step, stage)?;
         let initially = (number == 0).then(|| in_situ::holding(model, interfaces, &prestress)).flatten();
         if let Some(holding) = initially.filter(|_| stresses.iter().any(Option::is_some)) {
@@ -119,6 +127,7 @@ pub(super) fn steps(
             force_start,
             force_end,
             changing: changing.into_values().collect(),
+            water,
         };
         step.check(model)?;
         if step.control != Control::Load && step.follows_load_factor() {
@@ -149,10 +158,18 @@ fn total<'a>(
     Ok(force)
 }
 
-/// The loads that a step names.
-pub(super) fn given(scene: &Scene, model: &Model, index: &str, step: &Step) -> Result<Loads> {
-    let mut given = Loads::new();
-    for (group, load) in &step.load {
+/// The loads that a step names, pressures of interfaces among them that do not depend on jumps.
+pub(super) fn given(
+    scene: &Scene,
+    model: &Model,
+    interfaces: &[BoundInterface],
+    (index, step): (&str, &Step),
+    stated: &[Option<Stated>],
+) -> Result<Loads> {
+    let mut given: Loads = pressures::loads(model, interfaces, stated)
+        .map(|(name, load)| (("load", name), load))
+        .collect();
+    for (group, load) in step.load.iter().filter(|(key, _)| !scene.names_interfaces(key)) {
         let bound = BoundLoad::on_group(scene, model, index, group, load)?;
         given.insert(("load", group.clone()), Arc::new(bound));
     }

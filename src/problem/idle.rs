@@ -4,13 +4,14 @@ use std::collections::HashSet;
 
 use super::curve::PlannedInterface;
 use super::history::given;
+use super::{BoundInterface, pressures};
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
 use crate::mesh::Facet;
 use crate::scene::{Control, Grid, Scene, Solution};
 
 /// Warnings of loads that are zero wherever and whenever they act. One that ends a load of an earlier step is none.
-pub(super) fn loads(scene: &Scene, model: &Model) -> Result<Vec<Warning>> {
+pub(super) fn loads(scene: &Scene, model: &Model, interfaces: &[BoundInterface]) -> Result<Vec<Warning>> {
     let mut warnings = Vec::new();
     let mut acting: HashSet<(&str, String)> = HashSet::new();
     for (number, step) in scene.steps.iter().enumerate() {
@@ -19,7 +20,8 @@ pub(super) fn loads(scene: &Scene, model: &Model) -> Result<Vec<Warning>> {
         let name = |key: &str, group: &str| if key == "gravity" { String::new() } else { group.to_string() };
         let mut zero: Vec<(&str, String)> = Vec::new();
         let mut here: HashSet<(&str, String)> = HashSet::new();
-        for ((key, group), load) in &given(scene, model, &index, step)? {
+        let stated = pressures::stated(scene, model, interfaces, &index, step)?;
+        for ((key, group), load) in &given(scene, model, interfaces, (&index, step), &stated)? {
             let load_of = (*key, name(key, group));
             if load.is_zero(model, step.increments)? {
                 zero.push(load_of);
@@ -68,7 +70,8 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
             tell(&path, why.into(), "leave it out: only \"cracking\" is integrated");
         }
     }
-    if scene.interfaces.values().all(|stated| stated.law.kind().is_linear()) {
+    let coupled = |plan: &PlannedInterface| pressures::depends_on_jumps(scene, &plan.name);
+    if scene.interfaces.values().all(|stated| stated.law.kind().is_linear()) && !plans.iter().any(coupled) {
         let linear = "nothing slides or cracks: the scene is linear";
         for (i, step) in scene.steps.iter().enumerate() {
             if step.control != Control::Load {

@@ -2,6 +2,7 @@
 
 use super::curve::PlannedInterface;
 use super::ground::StressAt;
+use super::pressures::depends_on_jumps;
 use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
@@ -39,12 +40,15 @@ pub struct BoundInterface {
     pub laws: PointLaws,
     /// Initial tractions.
     pub initial: InitialTraction,
-    /// States of the law points before the first increment; empty for an elastic interface, which has no history.
+    /// States of the law points before the first increment; empty for an elastic interface, which has no history, unless the
+    /// pressure in it depends on its jumps.
     pub states: Vec<law::State>,
     /// Control of the law's integration.
     pub integration: Integration,
     /// True for an elastic interface that is too stiff for differences of displacements.
     pub stiff: bool,
+    /// True if the pressure in it depends on its jumps in some step.
+    pub coupled_pressure: bool,
     /// States of the law points when a part of it comes; none if its parts are always there.
     pub anew: Option<Vec<law::State>>,
 }
@@ -74,7 +78,8 @@ impl BoundInterface {
         let states = |initial: &InitialTraction| {
             initial::states(scene, plan.entry, stated, &laws, initial, &gaps, operator)
         };
-        let has_states = !laws.kind().is_linear() || parts != JoinedParts::Stay;
+        let coupled_pressure = depends_on_jumps(scene, &operator.name);
+        let has_states = !laws.kind().is_linear() || parts != JoinedParts::Stay || coupled_pressure;
         let anew = match parts {
             JoinedParts::Stay => None,
             _ => Some(states(&InitialTraction::Uniform(Local::zeros()))?),
@@ -82,6 +87,7 @@ impl BoundInterface {
         Ok(BoundInterface {
             states: if has_states { states(&initial)? } else { Vec::new() },
             initial,
+            coupled_pressure,
             anew,
             integration: Integration::Tolerance(stated.law_tolerance),
             stiff: stiffness::is_stiff(scene, stated, model, operator, &laws),

@@ -2,13 +2,14 @@
 
 use std::collections::HashMap;
 
+use super::point_laws::place;
 use super::quantity::Quantity;
 use super::{along, groups};
 use crate::assembly::Model;
 use crate::continuum::{cell_coordinates, cell_field_force, cell_weights, edge_field_force, edge_force};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh};
-use crate::scene::{FormulaPlace, Load, Scene, Value, Variable};
+use crate::scene::{FormulaPlace, Load, Pressure, Scene, Value, Variable};
 use crate::shape::Ends;
 use crate::shape::vector::{in_plane, plus};
 
@@ -27,6 +28,8 @@ enum LoadTarget {
     Edges { subdomain: usize, edges: Vec<Facet>, s: Option<Vec<Ends>>, pressure: bool },
     /// Points of a body, and the share of the force that each takes: copies of a point on an opened curve divide it.
     Points { subdomain: usize, points: Vec<(usize, f64)> },
+    /// Law points of an interface, between whose sides there is a pressure.
+    Interface { interface: usize, subdomains: [usize; 2] },
     /// A whole body: force per volume times a factor.
     BoundSubdomain { subdomain: usize, factor: f64 },
 }
@@ -49,7 +52,11 @@ impl BoundLoad {
             |kind: &str, [x, y]: &[Value; 2]| [quantity(kind, Some("0"), x), quantity(kind, Some("1"), y)];
         let (values, pressure) = match load {
             Load::Traction(values) => (both("traction", values), false),
-            Load::Pressure(value) => ([quantity("pressure", None, value), Quantity::number(0.0)], true),
+            Load::Pressure(Pressure::Imposed(value)) => {
+                ([quantity("pressure", None, value), Quantity::number(0.0)], true)
+            }
+            // the scene's door refuses flow along anything but interfaces
+            Load::Pressure(Pressure::Flow(_)) => ([Quantity::number(0.0), Quantity::number(0.0)], true),
             Load::Force(values) => {
                 let (subdomain, points) = groups::points(scene, model, &path, name)?;
                 let mesh = &model.subdomains[subdomain].mesh;
@@ -90,12 +97,20 @@ impl BoundLoad {
         }
     }
 
-    /// Number of the subdomain that it acts on.
-    pub(super) fn subdomain(&self) -> usize {
-        match self.target {
+    /// A pressure between the sides of an interface that does not depend on its jumps.
+    pub(super) fn in_interface(model: &Model, interface: usize, pressure: Quantity) -> BoundLoad {
+        let subdomains = model.interfaces[interface].subdomains;
+        let target = LoadTarget::Interface { interface, subdomains };
+        BoundLoad { target, values: [pressure, Quantity::number(0.0)] }
+    }
+
+    /// Numbers of the subdomains that it acts on.
+    pub(super) fn subdomains(&self) -> &[usize] {
+        match &self.target {
             LoadTarget::Edges { subdomain, .. }
             | LoadTarget::Points { subdomain, .. }
-            | LoadTarget::BoundSubdomain { subdomain, .. } => subdomain,
+            | LoadTarget::BoundSubdomain { subdomain, .. } => std::slice::from_ref(subdomain),
+            LoadTarget::Interface { subdomains, .. } => subdomains,
         }
     }
 
@@ -132,7 +147,7 @@ impl BoundLoad {
             _ => None,
         };
         let at = |place: [f64; 2], s: f64| -> Result<[f64; 2]> {
-            let place = FormulaPlace { x: place[0], y: place[1], z: 0.0, s, load_factor };
+            let place = FormulaPlace { x: place[0], y: place[1], z: 0.0, s, load_factor, ..FormulaPlace::default() };
             Ok([x.at(&place)?, y.at(&place)?])
         };
         let mut scatter = |node: usize, nodal: [f64; 2]| {
@@ -167,6 +182,14 @@ impl BoundLoad {
                     let force = at(in_plane(subdomain.mesh.points[point]), 0.0)?;
                     scatter(subdomain.first_node + point, force.map(|f| share * f));
                 }
+            }
+            LoadTarget::Interface { interface, .. } => {
+                let operator = &model.interfaces[*interface];
+                let mut tractions = vec![0.0; model.components * operator.coupling.points.len()];
+                for (p, traction) in tractions.iter_mut().step_by(model.components).enumerate() {
+                    *traction = x.at(&FormulaPlace { load_factor, ..place(operator, p) })?;
+                }
+                operator.add_force(&tractions, force);
             }
             LoadTarget::BoundSubdomain { subdomain, factor } => {
                 let (subdomain, mesh) = (&model.subdomains[*subdomain], &model.subdomains[*subdomain].mesh);

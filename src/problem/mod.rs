@@ -4,6 +4,7 @@ mod along;
 mod between;
 mod cover;
 mod curve;
+mod flow;
 mod gap;
 mod ground;
 mod groups;
@@ -16,6 +17,7 @@ mod load;
 mod parts;
 mod plan;
 mod point_laws;
+mod pressures;
 mod prestress;
 mod probes;
 mod quantity;
@@ -27,6 +29,7 @@ mod survey;
 mod unjoined;
 mod unused;
 mod warnings;
+mod water;
 mod within;
 
 pub use curve::joinings;
@@ -44,6 +47,7 @@ pub use stiffness::stiffness_number;
 pub use supports::{Duty, duties};
 pub use survey::Survey;
 pub use unused::unused_groups;
+pub use water::{EndRates, FlowSlopes, StepWater, WaterAnswer, WaterFields, WaterPoint};
 
 use curve::PlannedInterface;
 use ground::StressAt;
@@ -85,6 +89,17 @@ impl Problem {
         self.probes.iter().map(|(name, _)| name.clone()).chain(reactions).collect()
     }
 
+    /// True if there is water in an interface in some step, and if it flows along it.
+    pub fn water_in(&self, interface: usize) -> [bool; 2] {
+        let steps = || self.steps.iter().filter_map(|step| step.water.as_ref());
+        [steps().any(|water| water.is_in(interface)), steps().any(|water| water.flows_in(interface))]
+    }
+
+    /// True if water flows along some interface.
+    pub fn flows(&self) -> bool {
+        (0..self.interfaces.len()).any(|k| self.water_in(k)[1])
+    }
+
     /// All laws of all interfaces that differ.
     pub fn laws(&self) -> impl Iterator<Item = &Law> {
         self.interfaces.iter().flat_map(|interface| interface.laws.all())
@@ -107,7 +122,7 @@ impl Problem {
         warnings.extend(in_situ::disagreements(scene, &model, &interfaces, &plans, &stresses)?);
         let (steps, reactions, unbalanced) = history::steps(scene, &model, &interfaces, &stresses)?;
         warnings.extend(unbalanced);
-        warnings.extend(idle::loads(scene, &model)?);
+        warnings.extend(idle::loads(scene, &model, &interfaces)?);
         warnings.extend(idle::keys(scene, &plans));
         for step in &steps {
             let warning = rigid::check_free_subdomains(&model, &connectivity, &interfaces, step)?;

@@ -104,7 +104,7 @@ impl PointLaws {
 pub(super) fn place(interface: &InterfaceOperator, point: usize) -> FormulaPlace {
     let point = &interface.coupling.points[point];
     let [x, y, z] = point.position;
-    FormulaPlace { x, y, z, s: point.s / interface.coupling.midplane.length, load_factor: 0.0 }
+    FormulaPlace { x, y, z, s: point.s / interface.coupling.midplane.length, ..FormulaPlace::default() }
 }
 
 /// A place for a message.

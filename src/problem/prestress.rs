@@ -256,7 +256,7 @@ impl InForce {
 }
 
 fn in_body([x, y, z]: [f64; 3]) -> FormulaPlace {
-    FormulaPlace { x, y, z, s: 0.0, load_factor: 1.0 }
+    FormulaPlace { x, y, z, s: 0.0, load_factor: 1.0, ..FormulaPlace::default() }
 }
 
 /// Nodal forces of initial stresses and eigenstrains at a load factor; none without any [force].

@@ -1,12 +1,12 @@
 //! Probes bound to nodes and law points.
 
-use super::{BoundInterface, groups};
+use super::{BoundInterface, WaterFields, groups};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::LawPoint;
 use crate::error::{Result, name_help};
-use crate::law::{self, Local};
+use crate::law::{self, Local, N};
 use crate::scene::Scene;
-use crate::scene::probe::{JointField, Probe};
+use crate::scene::probe::{JointField, Probe, RatePlace};
 
 /// A probe without names.
 #[derive(Debug, Clone)]
@@ -27,6 +27,23 @@ pub enum BoundProbe {
         /// n or t.
         component: usize,
     },
+    /// Resultant of an interface's traction and pressure, component n.
+    TotalResultant {
+        /// Number of the interface.
+        interface: usize,
+    },
+    /// Resultant of an interface's pressure.
+    Uplift {
+        /// Number of the interface.
+        interface: usize,
+    },
+    /// Rate of flow at an end, or what the drains take.
+    Rate {
+        /// Number of the interface.
+        interface: usize,
+        /// At which place.
+        place: RatePlace,
+    },
     /// Moment of an interface's traction about its middle.
     Moment {
         /// Number of the interface.
@@ -44,6 +61,8 @@ pub enum BoundProbe {
     EnergyViscous,
     /// Work of loads and prescribed displacements.
     WorkExternal,
+    /// Work of the pressures in interfaces.
+    WorkWater,
 }
 
 /// Values that probes read.
@@ -69,6 +88,22 @@ pub struct ProbeInput<'a> {
     pub viscous: f64,
     /// External work.
     pub work: f64,
+    /// Water in the interfaces.
+    pub water: &'a WaterFields,
+    /// Work of the pressures in interfaces.
+    pub water_work: f64,
+}
+
+impl ProbeInput<'_> {
+    /// Pressure at a law point.
+    fn pressure(&self, interface: usize, point: usize) -> f64 {
+        value_at(&self.water.pressures, interface, point)
+    }
+}
+
+/// Value at a law point of an interface; zero where there is none.
+fn value_at(values: &[Vec<f64>], interface: usize, point: usize) -> f64 {
+    values.get(interface).and_then(|own| own.get(point)).copied().unwrap_or(0.0)
 }
 
 /// Binds the probes of a scene.
@@ -99,6 +134,13 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
                 Probe::Resultant { interface, component } => {
                     BoundProbe::Resultant { interface: number(&interface)?, component }
                 }
+                Probe::TotalResultant { interface } => {
+                    BoundProbe::TotalResultant { interface: number(&interface)? }
+                }
+                Probe::Uplift { interface } => BoundProbe::Uplift { interface: number(&interface)? },
+                Probe::Rate { interface, place } => {
+                    BoundProbe::Rate { interface: number(&interface)?, place }
+                }
                 Probe::Moment { interface } => BoundProbe::Moment { interface: number(&interface)? },
                 Probe::Displacement { group, direction } => {
                     let mean = groups::mean(scene, model, &path, &group)?;
@@ -112,6 +154,7 @@ pub(super) fn bind(scene: &Scene, model: &Model) -> Result<Vec<(String, BoundPro
                 Probe::EnergyReleased => BoundProbe::EnergyReleased,
                 Probe::EnergyViscous => BoundProbe::EnergyViscous,
                 Probe::WorkExternal => BoundProbe::WorkExternal,
+                Probe::WorkWater => BoundProbe::WorkWater,
             },
         ));
     }
@@ -137,6 +180,12 @@ impl BoundProbe {
                 let at = |p: usize| match *field {
                     JointField::Jump(c) => input.jumps[*interface][p][c],
                     JointField::Traction(c) => input.tractions[*interface][p][c],
+                    JointField::TotalTraction(c) => {
+                        let pressure = if c == N { input.pressure(*interface, p) } else { 0.0 };
+                        input.tractions[*interface][p][c] - pressure
+                    }
+                    JointField::Pressure => input.pressure(*interface, p),
+                    JointField::Aperture => value_at(&input.water.apertures, *interface, p),
                     JointField::Variable(variable) => {
                         let law = input.interfaces[*interface].laws.at(p);
                         input.states[*interface].get(p).map_or(0.0, |state| law.value(variable, state))
@@ -148,6 +197,24 @@ impl BoundProbe {
                 let points = &model.interfaces[*interface].coupling.points;
                 let tractions = &input.tractions[*interface];
                 points.iter().zip(tractions).map(|(p, t)| model.thickness * p.weight * t[*component]).sum()
+            }
+            BoundProbe::TotalResultant { interface } => {
+                let points = model.interfaces[*interface].coupling.points.iter().enumerate();
+                let total = |p: usize| input.tractions[*interface][p][N] - input.pressure(*interface, p);
+                points.map(|(p, point)| model.thickness * point.weight * total(p)).sum()
+            }
+            BoundProbe::Uplift { interface } => {
+                let points = model.interfaces[*interface].coupling.points.iter().enumerate();
+                let at = |(p, point): (usize, &LawPoint)| point.weight * input.pressure(*interface, p);
+                model.thickness * points.map(at).sum::<f64>()
+            }
+            BoundProbe::Rate { interface, place } => {
+                let rates = input.water.ends.get(*interface).copied().unwrap_or_default();
+                match place {
+                    RatePlace::Start => rates.start,
+                    RatePlace::End => rates.end,
+                    RatePlace::Drains => rates.drains,
+                }
             }
             BoundProbe::Moment { interface } => {
                 let points = &model.interfaces[*interface].coupling.points;
@@ -169,6 +236,7 @@ impl BoundProbe {
             BoundProbe::EnergyReleased => input.released,
             BoundProbe::EnergyViscous => input.viscous,
             BoundProbe::WorkExternal => input.work,
+            BoundProbe::WorkWater => input.water_work,
         }
     }
 }

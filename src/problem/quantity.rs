@@ -41,13 +41,19 @@ impl Quantity {
         if value.is_finite() {
             return Ok(value);
         }
-        let named = Variable::ALL.into_iter().zip([place.x, place.y, place.z, place.s, place.load_factor]);
-        let used = named
-            .filter(|(variable, _)| matches!(variable, Variable::X | Variable::Y) || self.uses(*variable));
-        let at: Vec<String> = used.map(|(variable, at)| format!("{} = {at}", variable.name())).collect();
+        let used = Variable::ALL
+            .into_iter()
+            .filter(|variable| matches!(variable, Variable::X | Variable::Y) || self.uses(*variable));
+        let at: Vec<String> =
+            used.map(|variable| format!("{} = {}", variable.name(), place.value(variable))).collect();
         let what = format!("{} is {value} at {}", self.value, at.join(", "));
         Err(self
             .error_at(what, "it must be finite wherever it acts; if(condition, a, b) chooses between two"))
+    }
+
+    /// Its derivative by a variable at a place.
+    pub(super) fn derivative(&self, place: &FormulaPlace, by: Variable) -> f64 {
+        self.value.derivative(place, by)
     }
 
     /// Refuses it with its key.

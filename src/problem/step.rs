@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::load::BoundLoad;
 use super::quantity::Quantity;
-use super::{Prestress, prestress};
+use super::{Prestress, StepWater, prestress};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::{Control, FormulaPlace, StepStage};
@@ -42,6 +42,8 @@ pub struct BoundStep {
     pub(super) force_end: Vec<f64>,
     /// Initial stresses and eigenstrains, subdomain by subdomain; empty without any.
     pub prestress: Vec<Option<Arc<Prestress>>>,
+    /// Pressures in the interfaces; none without water.
+    pub water: Option<Arc<StepWater>>,
     /// Loads that follow a formula in load_factor.
     pub(super) changing: Vec<Arc<BoundLoad>>,
 }
@@ -112,10 +114,12 @@ impl BoundStep {
     /// True if a formula in load_factor makes loads or displacements anything but a ramp.
     pub fn follows_load_factor(&self) -> bool {
         !(self.changing.is_empty() && self.moving.is_empty())
+            || self.water.as_ref().is_some_and(|water| water.follows_load_factor())
     }
 
     /// Asks every formula in load_factor at every increment, so that none fails half-way.
     pub(super) fn check(&self, model: &Model) -> Result<()> {
+        self.water.iter().try_for_each(|water| water.check(model, self.increments))?;
         if !self.follows_load_factor() {
             return Ok(());
         }

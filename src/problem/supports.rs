@@ -255,7 +255,7 @@ fn places(
     }
     let place = |(node, s): (usize, f64)| {
         let [x, y, z] = points[node - subdomain.first_node];
-        (node, FormulaPlace { x, y, z, s, load_factor: 1.0 })
+        (node, FormulaPlace { x, y, z, s, load_factor: 1.0, ..FormulaPlace::default() })
     };
     Ok(nodes.into_iter().zip(s).map(place).collect())
 }

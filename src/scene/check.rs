@@ -1,7 +1,7 @@
 //! Validation of a scene beyond its types: names that exist, numbers that mean something.
 
 use super::named::{check_group, check_name};
-use super::{Load, Plane, Scene, Step, Subdomain, Variable, split_group};
+use super::{Plane, Scene, Step, Subdomain, Variable, split_group};
 use crate::error::{Result, name_help};
 use crate::scene::probe::Probe;
 
@@ -154,13 +154,13 @@ impl Scene {
         for (key, groups) in [
             ("fix", step.fix.keys().collect::<Vec<_>>()),
             ("displace", step.displace.keys().collect()),
-            ("load", step.load.keys().collect()),
             ("body_force", step.body_force.keys().collect()),
         ] {
             for group in groups {
                 check_group(self, &["steps", index, key, group], group)?;
             }
         }
+        self.check_loads(index, step)?;
         self.check_gravity(index, step)?;
         self.check_own_strains(index, step)?;
         for (group, directions) in &step.fix {
@@ -181,14 +181,6 @@ impl Scene {
                     "no direction",
                     "give {\"x\": …}, {\"y\": …} or both",
                 ));
-            }
-        }
-        for (group, load) in &step.load {
-            let needs_curve = !matches!(load, Load::Force(_));
-            if split_group(group).1.is_none() {
-                let help = if needs_curve { "name a curve of it" } else { "name a point of it" };
-                let what = format!("\"{group}\" is a whole body");
-                return Err(self.source.error_at(&["steps", index, "load", group], what, help));
             }
         }
         for group in step.body_force.keys() {
@@ -259,7 +251,7 @@ impl Scene {
                 let help = name_help(name, self.subdomains.keys().map(String::as_str));
                 return Err(self.source.error_at(&path, format!("no subdomain \"{name}\""), help));
             };
-            for variable in [Variable::S, Variable::LoadFactor] {
+            for variable in Variable::ALL.into_iter().filter(|of| !Variable::OF_PLACES.contains(of)) {
                 if value.uses(variable) {
                     let what = format!("{} in {value}", variable.name());
                     let help = "write it in x and y: it is ramped to its value at the end of the step";

@@ -5,7 +5,7 @@
 
 use super::grammar;
 pub use super::op::{FormulaFault, FormulaPlace, Variable};
-use super::op::{Op, STACK, evaluate};
+use super::op::{Op, STACK, derivative, evaluate};
 use super::random::RandomField;
 
 /// A compiled formula.
@@ -67,6 +67,11 @@ impl Expression {
     pub fn at(&self, place: &FormulaPlace) -> f64 {
         evaluate(&self.code, &self.fields, place)
     }
+
+    /// Its derivative by a variable there; one-sided at a kink.
+    pub fn derivative(&self, place: &FormulaPlace, by: Variable) -> f64 {
+        derivative(&self.code, &self.fields, place, by)
+    }
 }
 
 impl PartialEq for Expression {
@@ -77,9 +82,11 @@ impl PartialEq for Expression {
 
 #[cfg(test)]
 mod tests {
+    use super::super::functions::{FUNCTIONS, RANDOM};
     use super::*;
 
-    const PLACE: FormulaPlace = FormulaPlace { x: 3.0, y: -0.5, z: 0.0, s: 0.25, load_factor: 0.75 };
+    const PLACE: FormulaPlace =
+        FormulaPlace { x: 3.0, y: -0.5, z: 0.0, s: 0.25, load_factor: 0.75, opening: 0.3, damage: 0.6 };
 
     #[test]
     fn formulas_follow_the_rules_of_school() {
@@ -114,6 +121,8 @@ mod tests {
             ("atan2(1, 1) + hypot(3, 4)", PI / 4.0 + 5.0),
             ("mod(-1, 4) + floor(y) + sign(y)", 1.0),
             ("s + load_factor", 1.0),
+            ("ramp(opening, 0.2, 0.6) + ramp(opening, 0, 0.1) + ramp(damage, 0.7, 1)", 1.25),
+            ("ramp(opening, 0.5, 0.2) + ramp(opening, 0.3, 0.3) + ramp(opening, 0.4, 0.4)", 5.0 / 3.0),
         ] {
             let value = Expression::parse(text).unwrap().at(&PLACE);
             assert!((value - exact).abs() <= 4e-16 * exact.abs().max(1.0), "{text}: {value}, exact {exact}");
@@ -126,6 +135,34 @@ mod tests {
         let expression = Expression::parse("2*pi*x").unwrap();
         assert_eq!(expression.code.len(), 3);
         assert!(expression.uses(Variable::X) && !expression.uses(Variable::S));
+    }
+
+    /// Claim: derivatives are those of central differences, for every function and operator, alone and nested.
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        let texts = FUNCTIONS.iter().filter(|(name, _)| *name != RANDOM).map(|(name, op)| match op.takes() {
+            1 => format!("damage*{name}(0.7*opening + 0.1)"),
+            2 => format!("{name}(opening*damage, 0.2 + x*opening)"),
+            _ => format!("{name}(opening, damage - 0.5*opening, 2*opening + s)"),
+        });
+        let own = [
+            "opening^2 - opening^3/damage + 2^opening + opening^damage - -opening",
+            "if(opening > 0.2, opening*damage, 3)*(opening < 1)",
+            "9.81e-3*(60 - y)*ramp(opening, 0.1, 0.7)*(1 - ramp(damage, 0.2, 1.4))",
+        ];
+        for text in texts.chain(own.map(String::from)) {
+            let formula = Expression::parse(&text).unwrap();
+            for by in Variable::OF_INTERFACES {
+                let at = |shift: f64| {
+                    let (mut opening, mut damage) = (PLACE.opening, PLACE.damage);
+                    *(if by == Variable::Opening { &mut opening } else { &mut damage }) += shift;
+                    formula.at(&FormulaPlace { opening, damage, ..PLACE })
+                };
+                let differences = (at(1e-6) - at(-1e-6)) / 2e-6;
+                let exact = formula.derivative(&PLACE, by);
+                assert!((exact - differences).abs() < 1e-8 * exact.abs().max(1.0), "{text}: {exact}, {differences}");
+            }
+        }
     }
 
     #[test]

@@ -81,7 +81,7 @@ impl<'a> Parser<'a> {
         for (symbol, compare) in COMPARISONS {
             if self.take(symbol) {
                 self.sum()?;
-                self.emit(Op::Two(compare));
+                self.emit(Op::Two(compare, |_, _| [0.0; 2]));
                 break;
             }
         }
@@ -128,7 +128,7 @@ impl<'a> Parser<'a> {
         }
         self.power()?;
         if negative {
-            self.emit(Op::One(|a| -a));
+            self.emit(Op::One(|a| -a, |_| -1.0));
         }
         self.depth -= 1;
         Ok(())
@@ -139,17 +139,17 @@ impl<'a> Parser<'a> {
         if self.take("^") {
             self.signed()?;
             // the common powers need no logarithm
-            let short: Option<fn(f64) -> f64> = match self.code.last() {
-                Some(Op::Number(2.0)) => Some(|a| a * a),
-                Some(Op::Number(3.0)) => Some(|a| a * a * a),
+            let short = match self.code.last() {
+                Some(Op::Number(2.0)) => Some(Op::One(|a| a * a, |a| 2.0 * a)),
+                Some(Op::Number(3.0)) => Some(Op::One(|a| a * a * a, |a| 3.0 * a * a)),
                 _ => None,
             };
             match short {
                 Some(short) => {
                     self.code.pop();
-                    self.emit(Op::One(short));
+                    self.emit(short);
                 }
-                None => self.emit(Op::Two(f64::powf)),
+                None => self.emit(Op::Two(f64::powf, |a, b| [b * a.powf(b - 1.0), a.powf(b) * a.ln()])),
             }
         }
         Ok(())

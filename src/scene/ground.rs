@@ -91,7 +91,7 @@ impl Scene {
             }
             Some(InitialStress::Components(components)) => {
                 for (key, value) in components.keys() {
-                    for variable in [Variable::S, Variable::LoadFactor] {
+                    for variable in Variable::ALL.into_iter().filter(|of| !Variable::OF_PLACES.contains(of)) {
                         if value.uses(variable) {
                             let what = format!("{} in {value}", variable.name());
                             return error_at(key, what, "the stress of a body is a formula in x and y");

@@ -40,8 +40,9 @@ impl Scene {
             return Err(self.source.error_at(&path, "\"pointwise\" has no grid", help));
         }
         for (i, value) in interface.initial_traction.iter().enumerate() {
+            let path = ["interfaces", name, "initial_traction", &i.to_string()];
+            self.check_place(&path, "", [value])?;
             if value.uses(Variable::LoadFactor) {
-                let path = ["interfaces", name, "initial_traction", &i.to_string()];
                 let what = format!("load_factor in {value}");
                 return Err(self.source.error_at(
                     &path,
@@ -70,11 +71,14 @@ impl Scene {
             let help = "what an interface is made of does not change with the load";
             Err(self.source.error_at(&path, what, help))
         };
-        if let Some((key, text)) = law.using(Variable::LoadFactor) {
-            return at_start(&format!("law.{key}"), format!("load_factor in {text}"));
-        }
-        if interface.initial_damage.uses(Variable::LoadFactor) {
-            return at_start("initial_damage", format!("load_factor in {}", interface.initial_damage));
+        for variable in [Variable::LoadFactor, Variable::Opening, Variable::Damage] {
+            if let Some((key, text)) = law.using(variable) {
+                return at_start(&format!("law.{key}"), format!("{} in {text}", variable.name()));
+            }
+            if interface.initial_damage.uses(variable) {
+                let what = format!("{} in {}", variable.name(), interface.initial_damage);
+                return at_start("initial_damage", what);
+            }
         }
         if !interface.initial_damage.is_zero() && !law.kind().takes_damage() {
             let what = "this law knows no initial damage";

@@ -12,7 +12,9 @@ mod ground;
 mod interface;
 mod interface_check;
 mod named;
+mod load_check;
 mod op;
+mod pressure;
 pub mod probe;
 mod random;
 mod read;
@@ -28,6 +30,7 @@ pub use accuracy::{Accuracy, Preset};
 pub use ground::{Ground, InitialStress, StressComponents};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
 pub use op::{FormulaPlace, Variable};
+pub use pressure::{Drain, Flow, FlowEnd, Pressure};
 pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
@@ -156,7 +159,7 @@ pub struct Step {
     /// Directions freed, by group; the reaction goes to zero over the step. A point of several groups is freed for all.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub release: IndexMap<String, Vec<Direction>>,
-    /// Loads by group, ramped from their last value. A load in whose formulas load_factor occurs is not ramped: they
+    /// Loads by group, ramped from their last value; a pressure also by interface, its name or a pattern. A load in whose formulas load_factor occurs is not ramped: they
     /// are its value at every load factor of the step, and that at load_factor 1 afterwards.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub load: IndexMap<String, Load>,
@@ -211,8 +214,8 @@ pub struct Displace {
 pub enum Load {
     /// Force per area (x, y) on a curve [stress].
     Traction([Value; 2]),
-    /// Pressure on a curve, positive against the body [stress].
-    Pressure(Value),
+    /// Pressure on a curve, positive against the body, or of water between the sides of an interface [stress].
+    Pressure(Pressure),
     /// Force (x, y) at a point, through the whole thickness [force].
     Force([Value; 2]),
 }

@@ -18,6 +18,10 @@ pub struct FormulaPlace {
     pub s: f64,
     /// Load factor within the step, 0 to 1.
     pub load_factor: f64,
+    /// Normal jump of an interface, 0 where its faces touch [length].
+    pub opening: f64,
+    /// Damage of an interface, 0 to 1.
+    pub damage: f64,
 }
 
 /// Variables of a formula.
@@ -33,6 +37,10 @@ pub enum Variable {
     S,
     /// Load factor within the step.
     LoadFactor,
+    /// Normal jump of an interface, 0 where its faces touch.
+    Opening,
+    /// Damage of an interface.
+    Damage,
 }
 
 /// Fault of a text that is no expression, with its place.
@@ -46,6 +54,10 @@ pub struct FormulaFault {
     pub help: String,
 }
 
+/// Derivatives of a function by its operands.
+pub(super) type ByTwo = fn(f64, f64) -> [f64; 2];
+pub(super) type ByThree = fn(f64, f64, f64) -> [f64; 3];
+
 /// One instruction: takes its operands from the stack and leaves its result there.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Op {
@@ -57,9 +69,10 @@ pub(super) enum Op {
     Subtract,
     Multiply,
     Divide,
-    One(fn(f64) -> f64),
-    Two(fn(f64, f64) -> f64),
-    Three(fn(f64, f64, f64) -> f64),
+    /// With its derivative, as those of two and three operands.
+    One(fn(f64) -> f64, fn(f64) -> f64),
+    Two(fn(f64, f64) -> f64, ByTwo),
+    Three(fn(f64, f64, f64) -> f64, ByThree),
 }
 
 impl Op {
@@ -67,16 +80,43 @@ impl Op {
     pub(super) fn takes(&self) -> usize {
         match self {
             Op::Number(_) | Op::Variable(_) | Op::Random(_) => 0,
-            Op::One(_) => 1,
-            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(_) => 2,
-            Op::Three(_) => 3,
+            Op::One(..) => 1,
+            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(..) => 2,
+            Op::Three(..) => 3,
+        }
+    }
+}
+
+impl FormulaPlace {
+    /// Value of a variable.
+    pub fn value(&self, variable: Variable) -> f64 {
+        match variable {
+            Variable::X => self.x,
+            Variable::Y => self.y,
+            Variable::Z => self.z,
+            Variable::S => self.s,
+            Variable::LoadFactor => self.load_factor,
+            Variable::Opening => self.opening,
+            Variable::Damage => self.damage,
         }
     }
 }
 
 impl Variable {
     /// All of them.
-    pub const ALL: [Variable; 5] = [Variable::X, Variable::Y, Variable::Z, Variable::S, Variable::LoadFactor];
+    pub const ALL: [Variable; 7] = [
+        Variable::X,
+        Variable::Y,
+        Variable::Z,
+        Variable::S,
+        Variable::LoadFactor,
+        Variable::Opening,
+        Variable::Damage,
+    ];
+    /// Coordinates.
+    pub const OF_PLACES: [Variable; 3] = [Variable::X, Variable::Y, Variable::Z];
+    /// Those that only the pressure in an interface has.
+    pub const OF_INTERFACES: [Variable; 2] = [Variable::Opening, Variable::Damage];
 
     /// Its name in a formula.
     pub fn name(self) -> &'static str {
@@ -86,34 +126,72 @@ impl Variable {
             Variable::Z => "z",
             Variable::S => "s",
             Variable::LoadFactor => "load_factor",
+            Variable::Opening => "opening",
+            Variable::Damage => "damage",
         }
     }
 }
 
 /// Runs postfix code, whose need of stack was checked when it was compiled.
 pub(super) fn evaluate(code: &[Op], fields: &[RandomField], place: &FormulaPlace) -> f64 {
-    let mut stack = [0.0; STACK];
+    let mut stack = [0.0; STACK + 2];
     let mut height = 0;
     for op in code {
         height -= op.takes();
-        let a = stack[height];
-        stack[height] = match *op {
-            Op::Number(value) => value,
-            Op::Variable(Variable::X) => place.x,
-            Op::Variable(Variable::Y) => place.y,
-            Op::Variable(Variable::Z) => place.z,
-            Op::Random(field) => fields[field].at(place.x, place.y, place.z),
-            Op::Variable(Variable::S) => place.s,
-            Op::Variable(Variable::LoadFactor) => place.load_factor,
-            Op::Add => a + stack[height + 1],
-            Op::Subtract => a - stack[height + 1],
-            Op::Multiply => a * stack[height + 1],
-            Op::Divide => a / stack[height + 1],
-            Op::One(f) => f(a),
-            Op::Two(f) => f(a, stack[height + 1]),
-            Op::Three(f) => f(a, stack[height + 1], stack[height + 2]),
-        };
+        let operands = [stack[height], stack[height + 1], stack[height + 2]];
+        stack[height] = evaluate_one(op, operands, fields, place);
         height += 1;
     }
     stack[0]
+}
+
+/// The result of one instruction.
+#[inline]
+fn evaluate_one(op: &Op, [a, b, c]: [f64; 3], fields: &[RandomField], place: &FormulaPlace) -> f64 {
+    match *op {
+        Op::Number(value) => value,
+        Op::Variable(variable) => place.value(variable),
+        Op::Random(field) => fields[field].at(place.x, place.y, place.z),
+        Op::Add => a + b,
+        Op::Subtract => a - b,
+        Op::Multiply => a * b,
+        Op::Divide => a / b,
+        Op::One(f, _) => f(a),
+        Op::Two(f, _) => f(a, b),
+        Op::Three(f, _) => f(a, b, c),
+    }
+}
+
+/// The derivative of postfix code by a variable, by the chain rule; one-sided where there is a kink.
+pub(super) fn derivative(code: &[Op], fields: &[RandomField], place: &FormulaPlace, by: Variable) -> f64 {
+    let (mut stack, mut slopes) = ([0.0; STACK + 2], [0.0; STACK + 2]);
+    let mut height = 0;
+    for op in code {
+        height -= op.takes();
+        let at = |k: usize| stack[height + k];
+        let by_operand = |k: usize| slopes[height + k];
+        // what does not depend on the variable has no part in it, whatever its own derivative
+        let times = |slope: f64, k: usize| if by_operand(k) == 0.0 { 0.0 } else { slope * by_operand(k) };
+        let value = evaluate_one(op, [at(0), at(1), at(2)], fields, place);
+        let slope = match *op {
+            Op::Number(_) | Op::Random(_) => 0.0,
+            Op::Variable(variable) => f64::from(u8::from(variable == by)),
+            Op::Add => by_operand(0) + by_operand(1),
+            Op::Subtract => by_operand(0) - by_operand(1),
+            Op::Multiply => times(at(1), 0) + times(at(0), 1),
+            Op::Divide => times(1.0 / at(1), 0) - times(value / at(1), 1),
+            Op::One(_, slope) => times(slope(at(0)), 0),
+            Op::Two(_, slopes) => {
+                let [a, b] = slopes(at(0), at(1));
+                times(a, 0) + times(b, 1)
+            }
+            Op::Three(_, slopes) => {
+                let [a, b, c] = slopes(at(0), at(1), at(2));
+                times(a, 0) + times(b, 1) + times(c, 2)
+            }
+        };
+        (stack[height], slopes[height]) = (value, slope);
+        height += 1;
+    }
+    slopes[0]
 }

@@ -2,7 +2,7 @@
 //!
 //! `interface.traction_n@0.5` a field at a fraction of the mid-plane's length, `upper.top.displacement_y` the mean over a
 //! group, `interface.resultant_t` the force across an interface, `interface.moment` that about its middle, `energy.stored`, `energy.dissipated`,
-//! `energy.released`, `energy.viscous`, `work.external`.
+//! `energy.released`, `energy.viscous`, `work.external`, `work.water`; of water `interface.uplift`, `interface.rate@0`, …
 
 use super::{Direction, JOINED, Scene};
 use crate::error::name_help;
@@ -27,6 +27,23 @@ pub enum Probe {
         /// Component: n or t.
         component: usize,
     },
+    /// Resultant of traction and pressure, component n [force].
+    TotalResultant {
+        /// The interface.
+        interface: String,
+    },
+    /// Resultant of the pressure in an interface, positive where it pushes the sides apart [force].
+    Uplift {
+        /// The interface.
+        interface: String,
+    },
+    /// Rate of flow at an end of an interface, or that which its drains take, for a unit thickness [length² / time].
+    Rate {
+        /// The interface.
+        interface: String,
+        /// At which place.
+        place: RatePlace,
+    },
     /// Moment of the traction across an interface about its middle, positive where tension grows along it [force × length].
     Moment {
         /// The interface.
@@ -49,6 +66,19 @@ pub enum Probe {
     EnergyViscous,
     /// Work done by loads and prescribed displacements so far [force × length].
     WorkExternal,
+    /// Work of the pressures in interfaces so far, part of that [force × length].
+    WorkWater,
+}
+
+/// Place of a rate of flow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RatePlace {
+    /// Start, s = 0.
+    Start,
+    /// End, s = 1.
+    End,
+    /// All drains.
+    Drains,
 }
 
 /// A field along an interface.
@@ -58,17 +88,31 @@ pub enum JointField {
     Jump(usize),
     /// Traction, component n or t [stress].
     Traction(usize),
+    /// Traction less the pressure, component n or t [stress].
+    TotalTraction(usize),
+    /// Pressure, positive [stress].
+    Pressure,
+    /// Hydraulic aperture of flow [length].
+    Aperture,
     /// A variable that a law has of its own.
     Variable(&'static LawVariable),
 }
 
 const DISPLACEMENTS: [&str; 2] = ["displacement_x", "displacement_y"];
-const JOINT_FIELDS: [(&str, JointField); 4] = [
+const JOINT_FIELDS: [(&str, JointField); 8] = [
     ("jump_n", JointField::Jump(0)),
     ("jump_t", JointField::Jump(1)),
     ("traction_n", JointField::Traction(0)),
     ("traction_t", JointField::Traction(1)),
+    ("traction_total_n", JointField::TotalTraction(0)),
+    ("traction_total_t", JointField::TotalTraction(1)),
+    ("pressure", JointField::Pressure),
+    ("hydraulic_aperture", JointField::Aperture),
 ];
+
+/// Quantities of a whole interface.
+const WHOLE: [&str; 7] =
+    ["resultant_n", "resultant_t", "total_resultant_n", "uplift", "moment", "rate", "drain_rate"];
 
 /// Fields along an interface by name: jump, traction, and what laws know beyond.
 fn joint_fields() -> impl Iterator<Item = (&'static str, JointField)> {
@@ -85,6 +129,7 @@ impl Probe {
             "energy.released" => return Ok(Probe::EnergyReleased),
             "energy.viscous" => return Ok(Probe::EnergyViscous),
             "work.external" => return Ok(Probe::WorkExternal),
+            "work.water" => return Ok(Probe::WorkWater),
             _ => {}
         }
         check_separators(text, scene)?;
@@ -143,11 +188,22 @@ fn interface(interface: &str, field: &str) -> std::result::Result<Probe, (String
     if let (Some(component), None) = (component, fraction) {
         return Ok(Probe::Resultant { interface: interface.into(), component });
     }
-    if (name, fraction) == ("moment", None) {
-        return Ok(Probe::Moment { interface: interface.into() });
+    let whole = || interface.to_string();
+    match (name, fraction) {
+        ("moment", None) => return Ok(Probe::Moment { interface: whole() }),
+        ("total_resultant_n", None) => return Ok(Probe::TotalResultant { interface: whole() }),
+        ("uplift", None) => return Ok(Probe::Uplift { interface: whole() }),
+        ("drain_rate", None) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::Drains }),
+        ("rate", Some("0")) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::Start }),
+        ("rate", Some("1")) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::End }),
+        ("rate", at) => {
+            let what = at.map_or("a rate of flow at no place".into(), |at| format!("a rate of flow at {at}"));
+            return Err((what, "write rate@0 or rate@1, or drain_rate for what the drains take".into()));
+        }
+        _ => {}
     }
     let Some((_, field)) = joint_fields().find(|(known, _)| *known == name) else {
-        let names = joint_fields().map(|(name, _)| name).chain(["resultant_n", "resultant_t", "moment"]);
+        let names = joint_fields().map(|(name, _)| name).chain(WHOLE);
         return Err((format!("no field \"{name}\""), name_help(name, names)));
     };
     let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));

@@ -222,7 +222,7 @@ mod tests {
             (
                 "-1.0] }",
                 "\"5*cos(pi*w)\"] }",
-                "scene.json:17 steps.0.load.upper.top.traction.1: unknown name \"w\" at character 10 of \"5*cos(pi*w)\"; there is x, y, z, s, load_factor, pi, e, abs",
+                "scene.json:17 steps.0.load.upper.top.traction.1: unknown name \"w\" at character 10 of \"5*cos(pi*w)\"; there is x, y, z, s, load_factor, opening, damage, pi, e, abs",
             ),
             ("-1.0] }", "\"1+sinn(x)\"] }", "Did you mean \"sin\"?"),
             ("-1.0] }", "\"(1 + 2\"] }", "\"(\" is not closed at character 1 of \"(1 + 2\"; add \")\""),

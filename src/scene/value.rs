@@ -26,6 +26,14 @@ impl Value {
         }
     }
 
+    /// Its derivative by a variable at a place.
+    pub fn derivative(&self, place: &FormulaPlace, by: Variable) -> f64 {
+        match self {
+            Value::Number(_) => 0.0,
+            Value::Expression(expression) => expression.derivative(place, by),
+        }
+    }
+
     /// The value if it is the same everywhere and always.
     pub fn constant(&self) -> Option<f64> {
         match self {

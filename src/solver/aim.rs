@@ -22,6 +22,19 @@ impl Aim<'_> {
         }
     }
 
+    /// The laws at a load factor; under a load they have their own.
+    pub(super) fn laws<L: Respond>(&self, laws: &L, load_factor: f64) -> L {
+        match self {
+            Aim::Load(_) => *laws,
+            Aim::Path(..) => laws.at(load_factor),
+        }
+    }
+
+    /// True along a path.
+    pub(super) fn follows(&self) -> bool {
+        matches!(self, Aim::Path(..))
+    }
+
     /// g.
     pub(super) fn missing<L: Respond>(&self, form: &impl Form, laws: &L, now: &Evaluation<L::Memory>) -> f64 {
         match self {

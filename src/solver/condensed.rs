@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! R(a) = a + F₀ (q(a) − T₀ a) − a₀     F₀ = G K₀⁻¹ Gᵀ     a₀ = G K₀⁻¹ f
-//! J    = I + F₀ (T − T₀)               u  = K₀⁻¹ (f − Gᵀ (q − T₀ a))
+//! J    = I + F₀ (T + P − T₀)           u  = K₀⁻¹ (f − Gᵀ (q − T₀ a))        P: pressures of flow
 //! ```
 //!
 //! Neither F₀ nor T is inverted: F₀ is singular where interface nodes are held, T where an interface slides or is open. The
@@ -41,6 +41,8 @@ pub struct Condensed<'a> {
     functionals: Vec<Functional>,
     jacobian: Jacobian,
     force_scale: ForceScale,
+    /// Derivative of the forces beyond the tangents.
+    beyond: Option<Mat<f64>>,
 }
 
 impl<'a> Condensed<'a> {
@@ -79,6 +81,7 @@ impl<'a> Condensed<'a> {
             functionals,
             jacobian,
             force_scale: ForceScale::default(),
+            beyond: None,
         }
     }
 
@@ -188,8 +191,12 @@ impl Form for Condensed<'_> {
         self.error(&misfit, x, forces, target)
     }
 
+    fn couple(&mut self, beyond: Option<Mat<f64>>) {
+        self.beyond = beyond;
+    }
+
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
-        self.jacobian.factor(self.flexibility.as_ref(), tangents);
+        self.jacobian.factor(self.flexibility.as_ref(), tangents, self.beyond.as_ref());
         true
     }
 

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::iterate::{Iterate, Unconverged};
-use super::{Form, Respond};
+use super::press::subtract;
+use super::{Form, Pressures, Respond};
 
 /// A law point is asked by itself; fewer than this many are not worth a thread.
 const CHUNK: usize = 32;
@@ -17,6 +18,7 @@ pub(super) struct Evaluation<M> {
     pub(super) stiffness: Vec<Vec<f64>>,
     pub(super) forces: Vec<Vec<f64>>,
     pub(super) memory: Vec<Vec<M>>,
+    pub(super) pressures: Option<Pressures>,
     pub(super) residual: Vec<f64>,
     pub(super) error: f64,
 }
@@ -41,6 +43,8 @@ pub struct Answers<M> {
     pub forces: Vec<Vec<f64>>,
     /// Memory of the law points.
     pub memory: Vec<Vec<M>>,
+    /// Pressures that depend on the jumps; the tractions are less these.
+    pub pressures: Option<Pressures>,
 }
 
 /// Asks the laws at the jumps of some unknowns, and the form for what is left.
@@ -50,16 +54,37 @@ pub(super) fn evaluate<L: Respond>(
     x: &[f64],
     target: &[f64],
 ) -> Result<Evaluation<L::Memory>, Unconverged> {
-    let Answers { jumps, tractions, stiffness, forces, memory } = ask(form, laws, x)?;
+    evaluate_at(form, laws, x, target, false)
+}
+
+/// The same, with the derivatives by the load factor if these are asked for.
+pub(super) fn evaluate_at<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+    target: &[f64],
+    by_load_factor: bool,
+) -> Result<Evaluation<L::Memory>, Unconverged> {
+    let Answers { jumps, tractions, stiffness, forces, memory, pressures } =
+        answers(form, laws, x, by_load_factor)?;
     let residual = form.residual(x, &forces, target);
     let error = form.error(&residual, x, &forces, target);
-    Ok(Evaluation { jumps, tractions, stiffness, forces, memory, residual, error })
+    Ok(Evaluation { jumps, tractions, stiffness, forces, memory, pressures, residual, error })
 }
 
 /// Asks the laws at the jumps of some unknowns.
 pub fn ask<L: Respond>(form: &impl Form, laws: &L, x: &[f64]) -> Result<Answers<L::Memory>, Unconverged> {
+    answers(form, laws, x, false)
+}
+
+fn answers<L: Respond>(
+    form: &impl Form,
+    laws: &L,
+    x: &[f64],
+    by_load_factor: bool,
+) -> Result<Answers<L::Memory>, Unconverged> {
     let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut forces, mut memory) = (Vec::new(), Vec::new());
+    let mut memory = Vec::new();
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
         let interface = &form.interfaces()[k];
         let c = interface.coupling.components;
@@ -79,12 +104,20 @@ pub fn ask<L: Respond>(form: &impl Form, laws: &L, x: &[f64]) -> Result<Answers<
             })
             .collect();
         memory.push(answers?);
-        forces.push(interface.gather(&t));
         all_jumps.push(jumps);
         tractions.push(t);
         stiffness.push(d);
     }
-    Ok(Answers { jumps: all_jumps, tractions, stiffness, forces, memory })
+    let pressures = laws.pressures(form.active(), &all_jumps, &mut memory, by_load_factor);
+    let pressures =
+        pressures.map_err(|reason| Unconverged { reason, worst: Vec::new(), iterations: 0 })?;
+    if let Some(pressures) = &pressures {
+        let components = form.active().first().map_or(0, |&k| form.interfaces()[k].coupling.components);
+        subtract(pressures, components, &mut tractions, &mut stiffness);
+    }
+    let gathered = form.active().iter().zip(&tractions).map(|(&k, t)| form.interfaces()[k].gather(t));
+    let forces = gathered.collect();
+    Ok(Answers { jumps: all_jumps, tractions, stiffness, forces, memory, pressures })
 }
 
 /// Names the law points with the largest misfit.

@@ -1,10 +1,12 @@
 //! Interfaces between Newton's method, a form of the equilibrium, and the laws.
 
+use faer::Mat;
+
 use super::{LinearMeasure, NodalSolution, Ramp};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 
 /// Response at the law points.
-pub trait Respond: Sync {
+pub trait Respond: Sync + Copy {
     /// The part of a response that a point keeps.
     type Memory: Send;
 
@@ -19,11 +21,48 @@ pub trait Respond: Sync {
         stiffness: &mut [f64],
     ) -> Result<Self::Memory, String>;
 
+    /// Pressures between the sides of the active interfaces where these depend on the jumps (n, t, …), given what the law points
+    /// keep, and their derivative by the load factor if it is asked for; none without any.
+    fn pressures(
+        &self,
+        _active: &[usize],
+        _jumps: &[Vec<f64>],
+        _memory: &mut [Vec<Self::Memory>],
+        _by_load_factor: bool,
+    ) -> Result<Option<Pressures>, String> {
+        Ok(None)
+    }
+
+    /// The same at another load factor of the step.
+    fn at(self, load_factor: f64) -> Self;
+
     /// Energy dissipated per area since the last accepted increment, and its derivative by the jump.
     fn dissipation<'m>(&self, memory: &'m Self::Memory) -> (f64, &'m [f64]);
 
     /// Fills the derivative of a law point before anything has cracked or slipped.
     fn initial_stiffness(&self, interface: usize, point: usize, stiffness: &mut [f64]);
+}
+
+/// Pressures at the law points of every active interface; empty for those without.
+#[derive(Debug, Clone, Default)]
+pub struct Pressures {
+    /// The pressures [stress].
+    pub values: Vec<Vec<f64>>,
+    /// Their derivatives by the jump (n, t, …) at the same point.
+    pub slopes: Vec<Vec<f64>>,
+    /// Their derivatives by the normal jumps at other points.
+    pub beyond: Vec<PressureSlopes>,
+    /// Their derivatives by the load factor, if asked for.
+    pub by_load_factor: Option<Vec<Vec<f64>>>,
+}
+
+/// Derivatives of pressures by normal jumps.
+#[derive(Debug, Clone)]
+pub struct PressureSlopes {
+    /// Place in the list of active interfaces, and law point, of every row and column.
+    pub points: Vec<(usize, usize)>,
+    /// The derivatives [stress / length].
+    pub matrix: Mat<f64>,
 }
 
 /// A residual below this part of the most that was carried is rounding.
@@ -81,6 +120,9 @@ pub trait Form {
     fn error(&self, residual: &[f64], x: &[f64], forces: &[Vec<f64>], target: &[f64]) -> f64;
     /// Residual that rounding alone may leave, measured like `error`.
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64;
+    /// Takes a derivative of the forces by the jump coefficients of all active interfaces beyond their tangents, or none, for
+    /// the next factor. Forms that do not say otherwise know none.
+    fn couple(&mut self, _beyond: Option<Mat<f64>>) {}
     /// Factors the Jacobian for the tangents of every active interface; false if it is singular.
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool;
     /// J⁻¹ b in place.

@@ -10,10 +10,11 @@
 //! The whole is factored where hardly a row is intact, and where intact stiffnesses are much larger than the base: then
 //! 1 + ΔT W is what is left of a difference.
 
-use faer::{Mat, MatRef};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef};
 use rayon::prelude::*;
 
-use super::dense::Lu;
+use super::dense::{Lu, parallelism};
 use crate::assembly::InterfaceTangent;
 use crate::sparse::Csr;
 
@@ -58,9 +59,22 @@ impl Jacobian {
         Jacobian { base_stiffness, intact, updates, base: None, factored: None }
     }
 
-    /// Factors J for the tangents of all active interfaces, unless that is what is factored.
-    pub(super) fn factor(&mut self, flexibility: MatRef<f64>, tangents: &[InterfaceTangent]) {
+    /// Factors J for the tangents of all active interfaces, unless that is what is factored; `beyond` is added to them.
+    pub(super) fn factor(
+        &mut self,
+        flexibility: MatRef<f64>,
+        tangents: &[InterfaceTangent],
+        beyond: Option<&Mat<f64>>,
+    ) {
         let values: Vec<f64> = tangents.iter().flat_map(|tangent| &tangent.matrix.values).copied().collect();
+        if let Some(beyond) = beyond {
+            let mut matrix =
+                whole(flexibility, &self.base_stiffness.less(&values, &self.base_stiffness.values));
+            let par = parallelism(matrix.nrows());
+            matmul(matrix.as_mut(), Accum::Add, flexibility, beyond.as_ref(), 1.0, par);
+            self.factored = Some((Vec::new(), JacobianFactor::Whole(Lu::new(matrix))));
+            return;
+        }
         if self.factored.as_ref().is_some_and(|(of, _)| *of == values) {
             return;
         }

@@ -2,18 +2,19 @@
 //! equilibria, where the load factor λ is one more unknown and how far an increment goes is one more equation.
 //!
 //! ```text
-//! R(x) = A(x) − b₀ − λ b₁ = 0          ⎡ J   −b₁ ⎤ ⎡δx⎤   ⎡−R⎤
+//! R(x) = A(x, λ) − b₀ − λ b₁ = 0       ⎡ J   ∂R/∂λ ⎤ ⎡δx⎤   ⎡−R⎤
 //! g(x) = 0                             ⎣ cᵀ    0 ⎦ ⎣δλ⎦ = ⎣−g⎦      c = ∂g/∂x
 //! ```
 //!
 //! A form (`condensed`, `floating`, `primal`) turns the equation into a residual R(x) of its own unknowns x and solves with its
 //! own Jacobian; laws answer jump by jump. On a path two solves take one factor: δλ = (c·y − g) / (c·z), δx = δλ z − y with
-//! y = J⁻¹ R and z = J⁻¹ b₁. The line search halves a step until the residual decreases: where points open, stick and slide by
+//! y = J⁻¹ R and z = −J⁻¹ ∂R/∂λ. The line search halves a step until the residual decreases: where points open, stick and slide by
 //! turns, full steps run in circles.
 
 use super::aim::Aim;
 use super::apart::{FREE, LOOSE, intact, moved_apart, opens_freely};
-use super::evaluation::{Evaluation, evaluate, unconverged};
+use super::evaluation::{Evaluation, evaluate, evaluate_at, unconverged};
+use super::press::{beyond, residual_rate};
 use super::{Affine, Constraint, Form, Iterate, NewtonSettings, PathPoint, Respond, Unconverged};
 use crate::assembly::InterfaceTangent;
 
@@ -83,7 +84,7 @@ impl Newton {
         constraint: &Constraint,
         settings: NewtonSettings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
-        let now = evaluate(form, laws, &start.x, &load.at(start.load_factor))?;
+        let now = evaluate_at(form, &laws.at(start.load_factor), &start.x, &load.at(start.load_factor), true)?;
         let settings = NewtonSettings { patience: usize::MAX, ..settings };
         self.search(form, laws, (start, now), &Aim::Path(load, constraint), settings)
     }
@@ -104,7 +105,7 @@ impl Newton {
             let missing = aim.missing(form, laws, &now);
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || self.rounding(form, laws, &x, &now, &aim.target(load_factor));
+            let rounded = || self.rounding(form, &aim.laws(laws, load_factor), &x, &now, &aim.target(load_factor));
             let balanced = now.error <= settings.tolerance || stalled && now.error <= rounded();
             if iterations > 0 && balanced && missing.abs() <= MET {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;
@@ -174,7 +175,8 @@ impl Newton {
             y.iter_mut().for_each(|value| *value = -*value);
             return (y, 0.0);
         };
-        let mut z = load.change.clone();
+        let mut z: Vec<f64> =
+            residual_rate(form, &load.change, now.pressures.as_ref()).into_iter().map(|rate| -rate).collect();
         if factored {
             form.solve(&mut z);
         }
@@ -207,11 +209,14 @@ impl Newton {
     /// The tangents of an evaluation.
     pub(super) fn fill<L: Respond>(
         &mut self,
-        form: &impl Form,
+        form: &mut impl Form,
         laws: &L,
         now: &Evaluation<L::Memory>,
         settings: NewtonSettings,
     ) {
+        let beyond = if settings.initial_tangent { None } else { beyond(form, now.pressures.as_ref()) };
+        form.couple(beyond);
+        let form = &*form;
         for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
             let interface = &form.interfaces()[k];
             if settings.initial_tangent {
@@ -249,7 +254,14 @@ fn search_line<L: Respond>(
     for _ in 0..=aim.halvings() {
         let next: Vec<f64> = x.iter().zip(correction).map(|(x, d)| x + step * d).collect();
         let next_load_factor = load_factor + step * change;
-        if let Ok(there) = evaluate(form, laws, &next, &aim.target(next_load_factor)) {
+        let there = evaluate_at(
+            form,
+            &aim.laws(laws, next_load_factor),
+            &next,
+            &aim.target(next_load_factor),
+            aim.follows(),
+        );
+        if let Ok(there) = there {
             let value = aim.merit(there.error, aim.missing(form, laws, &there), tolerance);
             if value.is_finite() {
                 if best.as_ref().is_none_or(|(kept, _)| value < *kept) {

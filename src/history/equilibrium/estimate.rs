@@ -13,9 +13,11 @@
 use super::laws::{Laws, OldStates};
 use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
+use crate::solver::PathPoint;
 use crate::history::converged::{Converged, PointResponse};
 use crate::history::loading::StepLoad;
-use crate::law::{self, Law, Local};
+use crate::history::water::pressures_of;
+use crate::law::{self, Law, Local, N};
 use crate::output::Snapshot;
 use crate::solver::{Affine, Form, ask, corrected};
 
@@ -52,6 +54,12 @@ pub(super) fn error_of<F: Form>(
     let problem = view.problem;
     let straight = found.interfaces.iter().all(|of| {
         let laws = &problem.interfaces[of.interface].laws;
+        if problem.interfaces[of.interface].coupled_pressure {
+            let mut all = of.memory.iter().enumerate();
+            if all.any(|(p, now)| now.pressure != 0.0 || old.pressure(of.interface, p) != 0.0) {
+                return false;
+            }
+        }
         let mut points = old.states[of.interface].iter().zip(&of.memory).enumerate();
         points.all(|(p, (old, new))| is_straight(laws.at(p), old, new))
     });
@@ -79,7 +87,7 @@ fn over_the_middle<F: Form>(
     let View { problem, prepared, form, .. } = *view;
     let target_of = |load| target(form, prepared, load).ok();
     let target = target_of(way.middle)?;
-    let laws = Laws::alone(problem, old, 0.5 * advance);
+    let laws = Laws::alone(problem, old, 0.5 * advance, way.middle.at());
     let x: Vec<f64> = view.unknowns.iter().zip(view.found).map(|(a, b)| 0.5 * (a + b)).collect();
     // on a path the load factor is corrected too, so that the middle stays on the plane across the way
     let across = match way.ends {
@@ -90,26 +98,32 @@ fn over_the_middle<F: Form>(
         }
         None => None,
     };
-    let [halfway, corrected] = corrected(form, &laws, &x, &target, across).ok()?;
+    let [halfway, corrected] = corrected(form, &laws, &PathPoint { x, load_factor: way.middle.load_factor }, &target, across).ok()?;
     // a point that changes its mode in the second half leads the correction astray
     let better = if corrected.residuals[0] < halfway.residuals[0] { &corrected } else { &halfway };
     let mut states = old.states.to_vec();
     for (&k, memory) in form.active().iter().zip(&better.memory) {
         states[k].iter_mut().zip(memory).for_each(|(state, answer)| *state = answer.state);
     }
-    let onwards = Laws::alone(problem, OldStates { states: &states, ..old }, 0.5 * advance);
+    let from = OldStates { states: &states, ..old };
+    let onwards = Laws::alone(problem, from, 0.5 * advance, way.end.at());
     let end = ask(form, &onwards, view.found).ok()?;
     let mut estimate = Estimate::default();
     let (mut squares, mut bends, mut works) = (0.0, 0.0, 0.0);
     for (a, of) in found.interfaces.iter().enumerate() {
         let points = &problem.model.interfaces[of.interface].coupling.points;
+        let before = |p: usize| old.pressure(of.interface, p);
         for (p, (old, new)) in old.states[of.interface].iter().zip(&of.memory).enumerate() {
             let area = problem.model.thickness * points[p].weight;
             let (there, here) = (&end.memory[a][p], &better.memory[a][p]);
             squares += points[p].weight * (there.state.traction - new.state.traction).norm_squared();
             estimate.dissipation += area * (here.dissipation + there.dissipation - new.dissipation);
             // (t₀ − 2 t_m + t₁) / 3: the trapezoidal rule less Simpson's
-            let bend = old.traction + new.state.traction - 2.0 * halfway.memory[a][p].state.traction;
+            let middle = &halfway.memory[a][p];
+            let mut bend = old.traction + new.state.traction - 2.0 * middle.state.traction;
+            if problem.interfaces[of.interface].coupled_pressure {
+                bend[N] -= before(p) + new.pressure - 2.0 * middle.pressure;
+            }
             let moved = new.state.jump - old.jump;
             estimate.work += area * bend.dot(&moved) / 3.0;
             bends += area * bend.dot(&moved).abs() / 3.0;
@@ -133,6 +147,12 @@ fn over_the_middle<F: Form>(
 pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &StepLoad) -> Option<f64> {
     let View { problem, prepared, form, .. } = *view;
     let target = target(form, prepared, load).ok()?;
+    let coupled = problem.interfaces.iter().any(|interface| interface.coupled_pressure);
+    let (step, load_factor) = load.at();
+    let pressures = match &step.water {
+        Some(water) if coupled => pressures_of(problem, snapshot, water, load_factor).ok()?.pressures,
+        _ => Vec::new(),
+    };
     let force = |&k: &usize| {
         let interface = &problem.model.interfaces[k];
         let states = &snapshot.states[k];
@@ -145,6 +165,13 @@ pub(super) fn imbalance<F: Form>(view: &View<F>, snapshot: &Snapshot, load: &Ste
         } else {
             states.iter().flat_map(|state| leading(state.traction)).collect()
         };
+        let mut tractions = tractions;
+        if problem.interfaces[k].coupled_pressure
+            && let Some(pressures) = pressures.get(k)
+        {
+            let normal = tractions.iter_mut().step_by(problem.model.components);
+            normal.zip(pressures).for_each(|(traction, pressure)| *traction -= pressure);
+        }
         interface.gather(&tractions)
     };
     let forces: Vec<Vec<f64>> = form.active().iter().map(force).collect();

@@ -41,12 +41,12 @@ pub(super) fn crack<F: Form>(
     let problem = view.problem;
     let Some(intact) = late(problem, old, found) else { return Some(true) };
     let target = target(&*view.form, view.prepared, end).ok()?;
-    let laws = Laws { intact: Some(&intact), ..Laws::alone(problem, old, f64::INFINITY) };
+    let laws = Laws { intact: Some(&intact), ..Laws::alone(problem, old, f64::INFINITY, end.at()) };
     let (form, newton) = (&mut *view.form, &mut *view.newton);
     let here = ask(form, &laws, view.found).ok()?;
     let residual = form.residual(view.found, &here.forces, &target);
-    let change = residual.iter().map(|r| -r).collect();
-    let there = along(newton, form, &laws, view.found, &target, change, settings).ok()?;
+    let change: Vec<f64> = residual.iter().map(|r| -r).collect();
+    let there = along(newton, form, &laws, view.found, (&target, &change), 0.0, settings).ok()?;
     for (&k, coefficients) in form.active().iter().zip(form.coefficients(&there)) {
         let jumps = form.interfaces()[k].jumps_of(&coefficients);
         let points = jumps.chunks_exact(problem.model.components).zip(&old.states[k]).zip(&intact[k]);
@@ -72,13 +72,14 @@ pub(super) fn first_onset<F: Form>(
     let target_of = |load| target(&*view.form, view.prepared, load).ok();
     let (target, before) = (target_of(load)?, target_of(now)?);
     let problem = view.problem;
-    let laws = Laws::alone(problem, old, f64::INFINITY);
+    let laws = Laws::alone(problem, old, f64::INFINITY, now.at());
     let (form, newton) = (&mut *view.form, &mut *view.newton);
     let end = match end {
         Some(end) => end,
         None => {
-            let change = target.iter().zip(&before).map(|(b, a)| b - a).collect();
-            along(newton, form, &laws, view.unknowns, &before, change, settings).ok()?
+            let change: Vec<f64> = target.iter().zip(&before).map(|(b, a)| b - a).collect();
+            let advance = load.load_factor - now.load_factor;
+            along(newton, form, &laws, view.unknowns, (&before, &change), advance, settings).ok()?
         }
     };
     let mut first = 1.0_f64;

@@ -1,11 +1,12 @@
 //! The laws as Newton's method asks them: with the states at the last accepted part of an increment, and with a viscosity of
 //! their jumps.
 
+use super::press::press;
 use crate::history::converged::PointResponse;
 use crate::law::{self, Local, local, write_diagonal, write_rows};
 use crate::output::{Presence, Snapshot};
-use crate::problem::Problem;
-use crate::solver::Respond;
+use crate::problem::{BoundStep, Problem, StepWater};
+use crate::solver::{Pressures, Respond};
 
 /// A viscosity above this part of the stiffness makes tiny steps.
 const STIFF: f64 = 0.1;
@@ -15,12 +16,23 @@ const STIFF: f64 = 0.1;
 pub(in crate::history) struct OldStates<'a> {
     pub(in crate::history) states: &'a [Vec<law::State>],
     pub(in crate::history) presence: &'a Presence,
+    /// Pressures in the interfaces, empty for those without.
+    pub(in crate::history) pressures: &'a [Vec<f64>],
 }
 
 impl<'a> OldStates<'a> {
+    /// Pressure at a law point.
+    pub(in crate::history) fn pressure(&self, interface: usize, point: usize) -> f64 {
+        self.pressures.get(interface).and_then(|own| own.get(point)).copied().unwrap_or(0.0)
+    }
+
     /// States of the last accepted increment.
     pub(in crate::history) fn of(snapshot: &'a Snapshot) -> OldStates<'a> {
-        OldStates { states: &snapshot.states, presence: &snapshot.presence }
+        OldStates {
+            states: &snapshot.states,
+            presence: &snapshot.presence,
+            pressures: &snapshot.water.pressures,
+        }
     }
 }
 
@@ -41,12 +53,22 @@ pub(in crate::history) struct Laws<'a> {
     pub(in crate::history) advance: f64,
     /// Law points of every interface that are held elastic, if any are.
     pub(in crate::history) intact: Option<&'a [Vec<bool>]>,
+    /// Water of the step, if it depends on the jumps of some interface, and the load factor.
+    pub(in crate::history) water: Option<&'a StepWater>,
+    pub(in crate::history) load_factor: f64,
 }
 
 impl<'a> Laws<'a> {
-    /// The laws alone.
-    pub(in crate::history) fn alone(problem: &'a Problem, old: OldStates<'a>, advance: f64) -> Laws<'a> {
-        Laws { problem, old, viscosity: None, lags: false, advance, intact: None }
+    /// The laws alone, in a step at a load factor.
+    pub(in crate::history) fn alone(
+        problem: &'a Problem,
+        old: OldStates<'a>,
+        advance: f64,
+        (step, load_factor): (&'a BoundStep, f64),
+    ) -> Laws<'a> {
+        let coupled = problem.interfaces.iter().any(|interface| interface.coupled_pressure);
+        let water = step.water.as_deref().filter(|_| coupled);
+        Laws { problem, old, viscosity: None, lags: false, advance, intact: None, water, load_factor }
     }
 
     /// The answer of the law alone.
@@ -95,10 +117,11 @@ impl Respond for Laws<'_> {
         }
         let jump = self.old.presence.counted(interface, point, local(jump));
         if self.intact.is_some_and(|intact| intact[interface][point]) {
-            let (held, k) = law.held(jump, &self.old.states[interface][point]);
+            let old = &self.old.states[interface][point];
+            let (held, k) = law.held(jump, old);
             traction.copy_from_slice(&held.as_slice()[..components]);
             write_diagonal(&k[..components], stiffness);
-            return Ok(PointResponse::default());
+            return Ok(PointResponse { state: *old, ..PointResponse::default() });
         }
         let answer = self.own(interface, point, jump)?;
         traction.copy_from_slice(&answer.traction.as_slice()[..components]);
@@ -118,7 +141,24 @@ impl Respond for Laws<'_> {
             gradient: answer.dissipation_gradient,
             released: answer.released,
             viscous,
+            damage_gradient: answer.damage_gradient,
+            pressure: 0.0,
         })
+    }
+
+    fn pressures(
+        &self,
+        active: &[usize],
+        jumps: &[Vec<f64>],
+        memory: &mut [Vec<PointResponse>],
+        by_load_factor: bool,
+    ) -> Result<Option<Pressures>, String> {
+        let Some(water) = self.water else { return Ok(None) };
+        press(self, water, active, jumps, memory, by_load_factor).map(Some)
+    }
+
+    fn at(self, load_factor: f64) -> Self {
+        Laws { load_factor, ..self }
     }
 
     fn dissipation<'m>(&self, memory: &'m PointResponse) -> (f64, &'m [f64]) {

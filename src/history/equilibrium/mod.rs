@@ -8,6 +8,7 @@ mod late;
 mod laws;
 mod linear;
 mod newton;
+mod press;
 pub(super) mod strategy;
 mod view;
 mod viscosity;
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::converged::Converged;
 use super::loading::StepLoad;
 use super::state::ModelState;
+use crate::problem::BoundStep;
 use crate::solver::{ForceScale, LinearMeasure, NodalSolution, NotPositiveDefinite, Ramp, Unconverged};
 
 /// Failure of the search for the equilibrium of an increment.
@@ -112,7 +114,8 @@ pub(in crate::history) struct Viscous {
 /// A step on the path of equilibria.
 #[derive(Debug)]
 pub(in crate::history) struct PathSearch<'a> {
-    /// The step's loads.
+    /// The step, and its loads.
+    pub(in crate::history) step: &'a BoundStep,
     pub(in crate::history) ramp: &'a Ramp,
     /// Energy to dissipate; none: as far as the predicted change of the jumps.
     pub(in crate::history) amount: Option<f64>,
@@ -215,6 +218,8 @@ pub(in crate::history) struct Estimate {
 #[derive(Debug, Clone, Copy)]
 pub(in crate::history) struct Way<'a> {
     pub(in crate::history) middle: &'a StepLoad<'a>,
+    /// Load at its end.
+    pub(in crate::history) end: &'a StepLoad<'a>,
     pub(in crate::history) ends: Option<&'a [StepLoad<'a>; 2]>,
 }
 

@@ -12,7 +12,7 @@ use crate::history::state::ModelState;
 use crate::problem::Problem;
 use crate::solver::{
     Affine, Constraint, Form, Iterate, LinearMeasure, Newton, NewtonSettings, NodalSolution,
-    NotPositiveDefinite, PathPoint, Ramp, ahead, leave,
+    NotPositiveDefinite, PathPoint, Ramp, Respond, ahead, leave,
 };
 
 /// Part of the extrapolation that shows which points go on cracking or sliding, and hardly moves them.
@@ -215,7 +215,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
             self.search.onwards(NEAR * changes),
             self.search.onwards(if near { NEAR * changes } else { changes }),
         ];
-        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load));
+        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load), load.at());
         self.solve_from(starts, &laws, load, complete)
     }
 
@@ -228,7 +228,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     ) -> Result<Converged, Failure> {
         let starts = [self.search.unknowns.clone(), self.search.onwards(ahead)];
         let lags = self.search.lags && may_lag(self.problem, viscosity);
-        let alone = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load));
+        let alone = Laws::alone(self.problem, OldStates::of(&state.snapshot), self.advance(load), load.at());
         let laws = Laws { viscosity: Some(viscosity), lags, ..alone };
         let settings = self.settings;
         let tolerance = if strict { settings.tolerance } else { settings.tolerance.max(CREEP) };
@@ -282,7 +282,8 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
     ) -> Result<(Converged, f64), Failure> {
         let Some((_, form, newton)) = &mut self.form else { return Err(Failure::Unusable(f64::INFINITY)) };
         form.compare_with(self.search.force_scale());
-        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), f64::INFINITY);
+        let at = (path.step, load_factor);
+        let laws = Laws::alone(self.problem, OldStates::of(&state.snapshot), f64::INFINITY, at);
         let ends = [0, 1].map(|end| form.target(&path.ramp.force[end], &path.ramp.prescribed[end]));
         let load = Affine::new(ends[0].clone(), &ends[1]);
         let from = PathPoint { x: self.search.unknowns.clone(), load_factor };
@@ -304,6 +305,7 @@ impl<F: Form> Engine for NewtonEngine<'_, F> {
         let (iterate, load_factor) = followed.map_err(Failure::Unconverged)?;
         let [loaded, prescribed] = path.ramp.at(load_factor);
         let solution = form.recover(&iterate.x, &iterate.forces, &loaded, &prescribed);
+        let laws = laws.at(load_factor);
         let found = self.found(Some(solution), None, iterate.residuals.clone(), &laws, iterate);
         Ok((found, load_factor))
     }

@@ -79,7 +79,7 @@ pub(in crate::history) fn choose(
     let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
     let fits = available.is_none_or(|available| needed <= available);
     let method = match problem.solution.strategy {
-        Strategy::Auto if condensed_interfaces.is_empty() => Method::Condensed,
+        Strategy::Auto if condensed_interfaces.is_empty() || problem.flows() => Method::Condensed,
         Strategy::Auto => {
             let stiff = condensed_interfaces.iter().any(|&k| problem.interfaces[k].stiff);
             let condensed = if fits { estimate.condensed } else { f64::INFINITY };

@@ -2,6 +2,7 @@
 
 use super::laws::Laws;
 use crate::history::converged::PointResponse;
+use crate::law::N;
 use crate::solver::Iterate;
 
 /// Viscous tractions of what was found, and the work that they do on the way there from those before: that of all tractions
@@ -26,8 +27,11 @@ pub(super) fn account(
         let mut now = Vec::with_capacity(components * points.len());
         for (p, (old, answer)) in laws.old.states[k].iter().zip(&iterate.memory[a]).enumerate() {
             // a traction that drops at the end of a step pushes on in the next
-            (0..components)
-                .for_each(|i| now.push(iterate.tractions[a][components * p + i] - answer.state.traction[i]));
+            let traction = |i: usize| {
+                let pressure = if i == N { answer.pressure } else { 0.0 };
+                iterate.tractions[a][components * p + i] + pressure
+            };
+            (0..components).for_each(|i| now.push(traction(i) - answer.state.traction[i]));
             let jump = answer.state.jump;
             let moved = jump - old.jump;
             let middle = 0.5 * (jump + old.jump);
@@ -36,7 +40,7 @@ pub(super) fn account(
             let Ok(middle) = laws.own(k, p, middle) else { continue };
             for i in 0..components {
                 let before = before.get(a).map_or(0.0, |viscous| viscous[components * p + i]);
-                let own = iterate.tractions[a][components * p + i] - answer.viscous[i];
+                let own = traction(i) - answer.viscous[i];
                 // ½ (t₀ + t₁) − (t₀' + 4 t_m + t₁) / 6
                 let bend = 0.5 * (old.traction[i] + own)
                     - (start.traction[i] + 4.0 * middle.traction[i] + own) / 6.0;

@@ -145,6 +145,7 @@ impl Cohesive {
             state: State { jump, traction, own, status, ..*old },
             dissipation: spent.value + friction.dissipated.value,
             dissipation_gradient: spent.gradient + friction.dissipated.gradient,
+            damage_gradient: damage.gradient,
             released: 0.0,
         }
     }
@@ -207,6 +208,10 @@ impl PointLaw for Cohesive {
             kt += damage * self.tangential_stiffness * met;
         }
         (traction, [kn, kt, kt])
+    }
+
+    fn damage(&self, state: &State) -> Option<f64> {
+        Some(state.own[DAMAGE])
     }
 
     /// ½ (1 − D) e² + ½ K_N ⟨−r_n⟩² + F²/(2 D K_T).

@@ -27,6 +27,7 @@ fn at_limit(law: &Coulomb, jump: Local, old: &State) -> Response {
         state: *old,
         dissipation: spent,
         dissipation_gradient: if slides { tau } else { Local::zeros() },
+        damage_gradient: Local::zeros(),
         released: 0.0,
     }
 }

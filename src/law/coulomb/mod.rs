@@ -165,6 +165,7 @@ impl PointLaw for Coulomb {
             state: State { jump, traction, jump_plastic, own, status: end.status },
             dissipation: end.dissipation.value,
             dissipation_gradient: turned.space(end.dissipation.gradient),
+            damage_gradient: Local::zeros(),
             released: end.released,
         })
     }

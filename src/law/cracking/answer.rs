@@ -115,6 +115,7 @@ fn straight<const D: usize>(
         state,
         dissipation: 0.0,
         dissipation_gradient: Local::zeros(),
+        damage_gradient: Local::zeros(),
         released: 0.0,
     })
 }
@@ -186,6 +187,10 @@ fn response<const D: usize>(
         state,
         dissipation: end.dissipation,
         dissipation_gradient: widen(&slopes.dissipation),
+        damage_gradient: match surface.is_spent(end.work) {
+            true => Local::zeros(),
+            false => widen(&slopes.work) * surface.per_gf_i,
+        },
         released: 0.0,
     }
 }

@@ -167,6 +167,7 @@ pub(super) fn on_facet<const D: usize>(surface: &Surface, jump: Local, old: &Sta
         state,
         dissipation,
         dissipation_gradient: Local::zeros(), // no path is followed in viscous steps
+        damage_gradient: Local::zeros(),
         released: 0.0,
     }
 }

@@ -174,6 +174,10 @@ impl PointLaw for Cracking {
         Crack::of(&surface, state).energy(&surface, state.traction[N]) + 0.5 * tau * tau / surface.kt
     }
 
+    fn damage(&self, state: &State) -> Option<f64> {
+        Some(Surface::new(self).damage(state.own[WORK]))
+    }
+
     fn intact(&self) -> [f64; OWN] {
         let (surface, mut state) = (Surface::new(self), State::default());
         Crack::closed(&surface).store(&surface, &mut state);

@@ -141,6 +141,12 @@ impl Surface {
         self.chi0 == 0.0 || work * self.per_gf_i >= 1.0
     }
 
+    /// W/G_I up to 1; 1 without any tensile strength.
+    #[inline]
+    pub fn damage(&self, work: f64) -> f64 {
+        if self.is_spent(work) { 1.0 } else { work * self.per_gf_i }
+    }
+
     /// The work of a step, G_I where it misses that by rounding: √χ would be left as shear.
     pub fn settled(&self, work: f64) -> f64 {
         let xi = work * self.per_gf_i;

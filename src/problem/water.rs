@@ -1,0 +1,305 @@
+//! Water in the interfaces during a step: imposed pressures and flow, from those before to those of the step.
+//!
+//! ```text
+//! p(λ) = (1 − λ) p₀ + λ p₁        p₀ as at the end of the step before; where load_factor occurs, p₁(λ) alone
+//! ```
+//!
+//! Both are taken at the jumps of the moment. Flow between the same ends with the same aperture and viscosity goes over with the
+//! pressures of its ends, which is the same.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::flow::{BoundFlow, StatedFlow};
+use super::point_laws::place;
+use super::pressures::Stated;
+use super::quantity::Quantity;
+use crate::assembly::{InterfaceOperator, Model};
+use crate::error::Result;
+use crate::law::{Local, N};
+use crate::scene::{FormulaPlace, Scene, Variable};
+use crate::water::Slopes;
+
+/// An imposed pressure in force.
+#[derive(Debug, Clone)]
+pub(super) struct Imposed {
+    pub(super) quantity: Quantity,
+    /// It is of this step and follows its load factor.
+    pub(super) follows: bool,
+}
+
+/// Source of the pressure in an interface.
+#[derive(Debug, Clone)]
+pub(super) enum Source {
+    /// None.
+    Dry,
+    /// An imposed pressure.
+    Imposed(Arc<Imposed>),
+    /// Flow.
+    Flow,
+}
+
+/// Water during a step.
+#[derive(Debug, Clone)]
+pub struct StepWater {
+    /// Sources of every interface, before and in the step.
+    sources: Vec<[Source; 2]>,
+    /// Flows before and in the step.
+    flows: [Option<Arc<BoundFlow>>; 2],
+}
+
+/// Jump and damage of a law point, and the slope of the damage by the jump.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct WaterPoint {
+    /// Jump (n, t, s) as the law counts it [length].
+    pub jump: Local,
+    /// Damage, 0 to 1.
+    pub damage: f64,
+    /// ∂damage/∂jump [1 / length].
+    pub damage_gradient: Local,
+}
+
+/// Water in the interfaces; empty where there is none, and for those without.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct WaterFields {
+    /// Pressure at the law points of every interface, positive [stress].
+    pub pressures: Vec<Vec<f64>>,
+    /// Rate of flow alike, for a unit thickness, positive along the interface [length² / time].
+    pub rates: Vec<Vec<f64>>,
+    /// Hydraulic aperture alike [length].
+    pub apertures: Vec<Vec<f64>>,
+    /// Rates at the ends of every interface, zero without flow.
+    pub ends: Vec<EndRates>,
+}
+
+/// Rates of flow of an interface for a unit thickness [length² / time].
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct EndRates {
+    /// In at s = 0.
+    pub start: f64,
+    /// Out at s = 1.
+    pub end: f64,
+    /// Out through its drains.
+    pub drains: f64,
+}
+
+/// Pressures in the interfaces, with their derivatives.
+#[derive(Debug, Clone, Default)]
+pub struct WaterAnswer {
+    /// Pressures and rates.
+    pub fields: WaterFields,
+    /// ∂p/∂jump at the same point of every interface, of those that depend on it.
+    pub slopes: Vec<Vec<Local>>,
+    /// ∂p/∂r_n at other points of flows.
+    pub flow_slopes: Vec<FlowSlopes>,
+}
+
+/// Derivatives of the pressures of flow by the normal jumps.
+#[derive(Debug, Clone)]
+pub struct FlowSlopes {
+    /// Interface and law point of every row and column.
+    pub points: Vec<(usize, usize)>,
+    /// The derivatives [stress / length].
+    pub slopes: Slopes,
+}
+
+impl StepWater {
+    /// None without any water.
+    fn new(
+        sources: Vec<[Source; 2]>,
+        flows: [Option<Arc<BoundFlow>>; 2],
+    ) -> Option<StepWater> {
+        let dry = |source: &Source| matches!(source, Source::Dry);
+        let none = sources.iter().flatten().all(dry);
+        (!none).then_some(StepWater { sources, flows })
+    }
+
+    /// True if a formula in load_factor gives a pressure.
+    pub(super) fn follows_load_factor(&self) -> bool {
+        let imposed = |source: &Source| matches!(source, Source::Imposed(own) if own.follows);
+        self.sources.iter().any(|own| imposed(&own[1])) || self.flows[1].as_ref().is_some_and(|flow| flow.follows)
+    }
+
+    /// True if there is water in an interface before or in the step.
+    pub fn is_in(&self, interface: usize) -> bool {
+        self.sources[interface].iter().any(|source| !matches!(source, Source::Dry))
+    }
+
+    /// True if water flows along an interface in the step.
+    pub fn flows_in(&self, interface: usize) -> bool {
+        matches!(self.sources[interface][1], Source::Flow)
+    }
+
+    /// Weights of what was before and of what is in the step.
+    fn weights(&self, interface: usize, load_factor: f64) -> [f64; 2] {
+        let at_once = match &self.sources[interface] {
+            [Source::Imposed(before), Source::Imposed(now)] => Arc::ptr_eq(before, now) || now.follows,
+            [Source::Dry, Source::Dry] => true,
+            [_, Source::Imposed(now)] => now.follows,
+            [before, Source::Flow] => {
+                let own = self.flows[1].as_ref();
+                let same = matches!(before, Source::Flow) && self.goes_on();
+                own.is_some_and(|flow| flow.follows) || same
+            }
+            _ => false,
+        };
+        if at_once { [0.0, 1.0] } else { [1.0 - load_factor, load_factor] }
+    }
+
+    /// True if the flow is that before but for the pressures of its ends.
+    fn goes_on(&self) -> bool {
+        match &self.flows {
+            [Some(before), Some(now)] => before.network == now.network,
+            _ => false,
+        }
+    }
+
+    /// Pressures at a load factor for the jumps and damages of the law points; a formula without a value is refused in words.
+    pub fn answer(
+        &self,
+        model: &Model,
+        load_factor: f64,
+        point: &dyn Fn(usize, usize) -> WaterPoint,
+        with_slopes: bool,
+    ) -> std::result::Result<WaterAnswer, String> {
+        let count = model.interfaces.len();
+        let empty = || vec![Vec::new(); count];
+        let ends = vec![EndRates::default(); count];
+        let fields = WaterFields { pressures: empty(), rates: empty(), apertures: empty(), ends };
+        let mut answer = WaterAnswer { fields, slopes: vec![Vec::new(); count], flow_slopes: Vec::new() };
+        for (k, operator) in model.interfaces.iter().enumerate().filter(|(k, _)| self.is_in(*k)) {
+            let points = operator.coupling.points.len();
+            answer.fields.pressures[k] = vec![0.0; points];
+            answer.slopes[k] = vec![Local::zeros(); points];
+            let weights = self.weights(k, load_factor);
+            for (end, source) in self.sources[k].iter().enumerate().filter(|(end, _)| weights[*end] != 0.0) {
+                let Source::Imposed(own) = source else { continue };
+                let at = if own.follows && end == 1 { load_factor } else { 1.0 };
+                for p in 0..points {
+                    let (pressure, slope) = own.at(operator, p, at, &point(k, p))?;
+                    answer.fields.pressures[k][p] += weights[end] * pressure;
+                    answer.slopes[k][p] += slope * weights[end];
+                }
+            }
+        }
+        for (end, flow) in self.flows.iter().enumerate() {
+            let Some(flow) = flow else { continue };
+            let weight = |k: usize| match self.sources[k][end] {
+                Source::Flow => self.weights(k, load_factor)[end],
+                _ => 0.0,
+            };
+            if flow.network.lines.iter().all(|line| weight(line.interface) == 0.0) {
+                continue;
+            }
+            let before = if end == 1 && self.goes_on() { self.flows[0].as_deref() } else { None };
+            let given = flow.given(before, if end == 1 { load_factor } else { 1.0 }).map_err(|why| why.to_string())?;
+            flow.add(model, &given, &weight, point, with_slopes, &mut answer);
+        }
+        Ok(answer)
+    }
+
+    /// Asks every formula in load_factor for the touching faces, so that none fails half-way.
+    pub(super) fn check(&self, model: &Model, increments: usize) -> Result<()> {
+        let load_factors = if self.follows_load_factor() { 1..=increments } else { increments..=increments };
+        for number in load_factors {
+            let load_factor = number as f64 / increments as f64;
+            for (operator, sources) in model.interfaces.iter().zip(&self.sources) {
+                let Source::Imposed(own) = &sources[1] else { continue };
+                for p in 0..operator.coupling.points.len() {
+                    own.quantity.at(&FormulaPlace { load_factor, ..place(operator, p) })?;
+                }
+            }
+            if let Some(flow) = &self.flows[1] {
+                flow.given(None, load_factor)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Imposed {
+    /// Pressure at a law point, and its derivative by the jump there.
+    fn at(
+        &self,
+        operator: &InterfaceOperator,
+        p: usize,
+        load_factor: f64,
+        point: &WaterPoint,
+    ) -> std::result::Result<(f64, Local), String> {
+        let opening = point.jump[N].max(0.0);
+        let place = FormulaPlace { load_factor, opening, damage: point.damage, ..place(operator, p) };
+        let pressure = self.quantity.at(&place).map_err(|why| why.to_string())?;
+        let mut slope = Local::zeros();
+        if opening > 0.0 && self.quantity.uses(Variable::Opening) {
+            slope[N] = self.quantity.derivative(&place, Variable::Opening);
+        }
+        if self.quantity.uses(Variable::Damage) && point.damage_gradient != Local::zeros() {
+            slope += point.damage_gradient * self.quantity.derivative(&place, Variable::Damage);
+        }
+        Ok((pressure, slope))
+    }
+}
+
+/// Water in force from step to step.
+pub(super) struct WaterInForce<'a> {
+    sources: Vec<Source>,
+    flows: Vec<StatedFlow<'a>>,
+    /// Flow of the step before.
+    flow: Option<Arc<BoundFlow>>,
+}
+
+impl<'a> WaterInForce<'a> {
+    pub(super) fn new(model: &Model) -> WaterInForce<'a> {
+        WaterInForce { sources: vec![Source::Dry; model.interfaces.len()], flows: Vec::new(), flow: None }
+    }
+
+    /// Water of a step that states pressures; none where there is none before or in it. `there`: whether parts stay through the
+    /// start of the step, and are there in it.
+    pub(super) fn step(
+        &mut self,
+        scene: &Scene,
+        model: &Model,
+        number: usize,
+        stated: &[Option<Stated<'a>>],
+        [stay, are_there]: [&dyn Fn(&[usize]) -> bool; 2],
+    ) -> Result<Option<StepWater>> {
+        let before = self.sources.clone();
+        for (k, stated) in stated.iter().enumerate() {
+            let Some(stated) = stated else { continue };
+            self.flows.retain(|flow| flow.interface != k);
+            self.sources[k] = match stated {
+                Stated::Imposed(quantity) => {
+                    let follows = quantity.uses(Variable::LoadFactor);
+                    Source::Imposed(Arc::new(Imposed { quantity: quantity.clone(), follows }))
+                }
+                Stated::Flow(flow, key) => {
+                    self.flows.push(StatedFlow { interface: k, flow, step: number, key: key.clone() });
+                    Source::Flow
+                }
+            };
+        }
+        self.flows.sort_by_key(|flow| flow.interface);
+        let parts = |k: usize| &model.interfaces[k].subdomains[..];
+        let flows: Vec<StatedFlow> =
+            self.flows.iter().filter(|flow| are_there(parts(flow.interface))).cloned().collect();
+        let flow = match flows.is_empty() {
+            true => None,
+            false => Some(Arc::new(BoundFlow::new(scene, model, number, &flows)?)),
+        };
+        let present = |source: &Source, is: bool| if is { source.clone() } else { Source::Dry };
+        let both = |k: usize| [present(&before[k], stay(parts(k))), present(&self.sources[k], are_there(parts(k)))];
+        let sources = (0..before.len()).map(both).collect();
+        let water = StepWater::new(sources, [self.flow.take(), flow.clone()]);
+        // what goes on stays as it is at load factor 1
+        for source in &mut self.sources {
+            if let Source::Imposed(own) = source
+                && own.follows
+            {
+                *source = Source::Imposed(Arc::new(Imposed { quantity: own.quantity.clone(), follows: false }));
+            }
+        }
+        self.flow = flow;
+        Ok(water)
+    }
+}

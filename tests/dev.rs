@@ -1,0 +1,5 @@
+#![allow(missing_docs, clippy::unwrap_used, dead_code)]
+mod common;
+mod law_help;
+mod flow;
+mod water;

@@ -1,0 +1,247 @@
+//! Claim: steady flow along joints is exact for the apertures that their grids represent, whatever they are; pipes share it as
+//! their cubes say; opened by its own pressure it is found with the jumps, quadratically and to rounding.
+//!
+//! ```text
+//! w = a + b s:     R(s) = (1/a² − 1/(a + b s)²)/(2 b)     p = p₀ + (p₁ − p₀) R(s)/R(L)     q = (p₀ − p₁)/(12 μ R(L))
+//! T of pipes:      g = w³/(12 μ L)      p = Σ g p/Σ g      Σ q = 0
+//! own pressure:    blocks on springs K under P: K r = p − P, q = −(w₀ + r)³/(12 μ) dp/ds, so (w₀ + r)⁴ is linear in s
+//! ```
+
+use crate::common::*;
+use midplane::history::ModelState;
+use midplane::mesh::Mesh;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+const MU: f64 = 1e-3;
+
+fn problem(
+    interfaces: &str,
+    solution: &str,
+    steps: &str,
+    history: &str,
+    parts: Vec<(&str, Mesh)>,
+) -> midplane::error::Result<Problem> {
+    let named: Vec<String> =
+        parts.iter().map(|(name, _)| format!(r#""{name}": {{ "msh": "{name}", "material": "rock" }}"#)).collect();
+    let text = format!(
+        r#"{{ "plane": "strain",
+          "subdomains": {{ {} }},
+          "materials": {{ "rock": {{ "young": 1e4, "poisson": 0 }} }},
+          "interfaces": {{ {interfaces} }},
+          "solution": {{ {solution} }},
+          "steps": [ {steps} ],
+          "output": {{ "history": {{ {history} }} }} }}"#,
+        named.join(", ")
+    );
+    bind(&text, parts.into_iter().map(|(_, mesh)| mesh).collect())
+}
+
+fn block(x: [f64; 2], y: [f64; 2], n: usize, shape: Shape, degrees: f64) -> Mesh {
+    let turned = rotation(degrees);
+    rectangle(&graded(x[0], x[1], n, 3.0), &even(y[0], y[1], 2), shape, move |x, y| turned(x, y))
+}
+
+const SOFT: &str = r#"{ "type": "elastic", "normal_stiffness": 1, "tangential_stiffness": 1 }"#;
+
+/// Two blocks whose jump is given throughout: r_n = a − w₀ + b s along the joint of 2 m.
+fn wedge(shape: Shape, coupling: &str, degrees: f64, [w0, start, slope]: [f64; 3], flow: &str) -> (Problem, ModelState) {
+    let (sin, cos) = f64::to_radians(degrees).sin_cos();
+    let along = format!("(({cos})*x + ({sin})*y)");
+    let opening = format!("({} + ({slope})*{along})", start - w0);
+    let steps = format!(
+        r#"{{ "name": "open", "fix": {{ "a": ["x", "y"] }},
+            "displace": {{ "b": {{ "x": "-({sin})*{opening}", "y": "({cos})*{opening}" }} }},
+            "load": {{ "joint": {{ "pressure": {{ "flow": {{ "aperture": {w0}, "viscosity": {MU}, {flow} }} }} }} }} }}"#
+    );
+    let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} {coupling} }}"#);
+    let history = r#""q0": "joint.rate@0", "q1": "joint.rate@1", "d": "joint.drain_rate", "w": "joint.hydraulic_aperture@0.5""#;
+    let parts = vec![
+        ("a", block([0.0, 2.0], [-0.5, 0.0], 5, shape, degrees)),
+        ("b", block([0.0, 2.0], [0.0, 0.5], 8, shape, degrees)),
+    ];
+    let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
+    let state = solve(&problem).0.pop().unwrap();
+    (problem, state)
+}
+
+/// R(s) of a wedge; of parallel plates its limit.
+fn resistance(a: f64, b: f64, s: f64) -> f64 {
+    if b == 0.0 { s / a.powi(3) } else { (1.0 / (a * a) - 1.0 / (a + b * s).powi(2)) / (2.0 * b) }
+}
+
+#[test]
+fn a_wedge_is_exact_on_every_grid() {
+    let (p0, p1) = (3.0, 0.5);
+    let flow = format!(r#""ends": [{p0}, {p1}]"#);
+    for shape in [Shape::Triangle3, Shape::Quadrilateral4, Shape::Quadrilateral8] {
+        for coupling in ["", r#", "coupling": "pointwise""#, r#", "quadrature": "lobatto""#] {
+            for (degrees, opening) in
+                [(0.0, [1e-3, 1e-3, 2e-3]), (30.0, [1e-4, 6e-3, -2e-3]), (-70.0, [1e-3, 1e-3, 0.0]), (0.0, [1e-6, 1e-6, 1e-2])]
+            {
+                let (problem, state) = wedge(shape, coupling, degrees, opening, &flow);
+                let [_, a, b] = opening;
+                let whole = resistance(a, b, 2.0);
+                let what = format!("{shape:?} {coupling} {degrees} {opening:?}");
+                let points = &problem.model.interfaces[0].coupling.points;
+                for (point, p) in points.iter().zip(&state.snapshot.water.pressures[0]) {
+                    let exact = p0 + (p1 - p0) * resistance(a, b, point.s) / whole;
+                    close(*p, exact, 1e-8, p0, &format!("{what}: p at {}", point.s));
+                }
+                let q = (p0 - p1) / (12.0 * MU * whole);
+                let probes = state.probes(&problem);
+                close(probes[0], q, 1e-8, q, &format!("{what}: rate@0"));
+                close(probes[1], q, 1e-8, q, "rate@1");
+                close(probes[2], 0.0, 1e-8, q, "drains");
+                close(probes[3], a + b, 1e-8, a + b, "aperture in the middle");
+                let rates = &state.snapshot.water.rates[0];
+                rates.iter().for_each(|rate| close(*rate, q, 1e-8, q, "rate"));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_drain_takes_what_comes_from_both_sides_and_a_wall_holds_it() {
+    let flow = r#""ends": [3, "wall"], "drains": [{ "at": 0.35, "pressure": "0.2 + s" }]"#;
+    let (a, b) = (1e-3, 2e-3);
+    let (problem, state) = wedge(Shape::Quadrilateral4, "", 20.0, [a, a, b], flow);
+    let whole = resistance(a, b, 0.7);
+    let q = (3.0 - 0.55) / (12.0 * MU * whole);
+    let probes = state.probes(&problem);
+    for (value, exact) in [(probes[0], q), (probes[1], 0.0), (probes[2], q)] {
+        close(value, exact, 1e-8, q, "rates");
+    }
+    for (point, p) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.water.pressures[0]) {
+        let exact = if point.s < 0.7 { 3.0 - 2.45 * resistance(a, b, point.s) / whole } else { 0.55 };
+        close(*p, exact, 1e-8, 3.0, &format!("p at {}", point.s));
+    }
+}
+
+/// Three blocks whose joints meet in a T, opened by given amounts.
+#[test]
+fn joints_that_meet_share_the_flow_as_pipes_do() {
+    let (left, right, up) = (1e-3, 2e-3, 1.5e-3);
+    let given = |name: &str, x: f64, y: f64| format!(r#""{name}": {{ "x": {x}, "y": {y} }}"#);
+    // the top block rises by 1e-3 over the left one and by 2e-3 over the right one, which goes down and aside
+    let displaced = [given("left", 0.0, 0.0), given("right", up - 1e-9, left - right), given("top", 0.0, left)];
+    let flow = |ends: &str| format!(r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU} {ends} }} }} }}"#);
+    for ends_of_top in ["", r#", "ends": [null, "joined"]"#] {
+        let steps = format!(
+            r#"{{ "name": "open", "increments": 2, "displace": {{ {} }},
+                "load": {{ "j~left~top": {}, "j~right~top": {}, "j~left~right": {} }} }}"#,
+            displaced.join(", "),
+            flow(if ends_of_top.is_empty() { r#", "ends": [5, "joined"]"# } else { r#", "ends": [5, null]"# }),
+            flow(r#", "ends": [null, 1]"#),
+            flow(r#", "ends": [null, -2]"#),
+        );
+        let law = r#""law": { "type": "elastic", "normal_stiffness": 1, "tangential_stiffness": 1 }"#;
+        let interfaces = format!(r#""j": {{ "between": ["*", "*"], {law} }}"#);
+        let history = r#""a0": "j~left~top.rate@0", "a1": "j~left~top.rate@1", "b0": "j~right~top.rate@0",
+            "b1": "j~right~top.rate@1", "c0": "j~left~right.rate@0", "c1": "j~left~right.rate@1""#;
+        let parts = vec![
+            ("left", block([-1.0, 0.0], [-1.0, 0.0], 4, Shape::Quadrilateral4, 0.0)),
+            ("right", block([0.0, 1.5], [-1.0, 0.0], 5, Shape::Quadrilateral4, 0.0)),
+            ("top", block([-1.0, 1.5], [0.0, 1.0], 7, Shape::Quadrilateral4, 0.0)),
+        ];
+        let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
+        let (states, _) = solve(&problem);
+        let g = |w: f64, length: f64| w.powi(3) / (12.0 * MU * length);
+        for (state, part) in states.iter().zip([0.5, 1.0]) {
+            let w = |full: f64| 1e-9 + part * full;
+            let pipes = [(g(w(left), 1.0), 5.0), (g(w(right), 1.5), 1.0), (g(w(up - 1e-9), 1.0), -2.0)];
+            let middle = pipes.iter().map(|(g, p)| g * p * part).sum::<f64>() / pipes.iter().map(|(g, _)| g).sum::<f64>();
+            let rates = state.probes(&problem);
+            let inwards = pipes.map(|(g, p)| g * (p * part - middle));
+            // s of every interface runs where its own chain A does: the signs follow from which end is given
+            let largest = inwards.iter().map(|q| q.abs()).fold(0.0, f64::max);
+            let towards = [rates[1], -rates[2], -rates[4]];
+            for (k, (rate, exact)) in towards.iter().zip(inwards).enumerate() {
+                close(*rate, exact, 1e-8, largest, &format!("pipe {k} of {rates:?}"));
+            }
+            close(towards.iter().sum::<f64>(), 0.0, 1e-12, largest, "sum at the junction");
+            close(rates[0], rates[1], 1e-12, largest, "one rate along a pipe");
+        }
+    }
+}
+
+/// Claim: rigid blocks on a bed of springs: (w₀ + r)⁴ falls linearly from end to end.
+#[test]
+fn water_opens_its_own_way() {
+    let (k, w0, p0, p1, pressed) = (10.0, 1e-2, 3.0, 0.4, 0.2);
+    let law = format!(r#"{{ "type": "elastic", "normal_stiffness": {k}, "tangential_stiffness": {k} }}"#);
+    let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {law} }}"#);
+    // bodies of which every column moves by itself: stiff in y, nothing in x
+    let mut errors = Vec::new();
+    for n in [6, 12, 24] {
+        let flow = format!(r#"{{ "flow": {{ "aperture": {w0}, "viscosity": {MU}, "ends": [{p0}, {p1}] }} }}"#);
+        let steps = format!(
+            r#"{{ "name": "water", "increments": 1, "fix": {{ "a": ["x", "y"], "b": ["x"] }},
+                "load": {{ "b.bottom": {{ "pressure": {} }}, "joint": {{ "pressure": {flow} }} }} }}"#,
+            -pressed
+        );
+        // a strip so thin that it bends with the joint
+        let part = |y: [f64; 2], n: usize| rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 1), Shape::Quadrilateral4, |x, y| [x, y]);
+        let parts = vec![("a", part([-1e-6, 0.0], n)), ("b", part([0.0, 1e-6], n))];
+        let problem = problem(&interfaces, r#""path_tolerance": 1"#, &steps, r#""q0": "joint.rate@0", "q1": "joint.rate@1""#, parts).unwrap();
+        let (states, totals) = solve(&problem);
+        let state = &states[0];
+        let residuals = &state.residuals;
+        assert!(residuals.len() <= 12, "{residuals:?}");
+        assert!(*residuals.last().unwrap() < 1e-12, "{residuals:?}");
+        for pair in residuals.windows(2).filter(|pair| pair[0] < 2e-2 && pair[0] > 1e-8) {
+            assert!(pair[1] < 30.0 * pair[0] * pair[0], "{residuals:?}");
+        }
+        let probes = state.probes(&problem);
+        close(probes[0], probes[1], 1e-12, probes[0], "mass");
+        // K r = p + pressed outwards
+        let w = |p: f64| w0 + (p + pressed) / k;
+        let [start, end] = [w(p0).powi(4), w(p1).powi(4)];
+        let q = k * (start - end) / (4.0 * 12.0 * MU * 2.0);
+        let mut error = (probes[0] / q - 1.0).abs();
+        for (point, jump) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.jumps[0]) {
+            let exact = (start + (end - start) * point.s / 2.0).powf(0.25) - w0;
+            error = error.max((jump[0] / exact - 1.0).abs());
+        }
+        errors.push(error);
+        assert!(totals.energy_balance.is_finite());
+    }
+    assert!(errors[2] < 2e-3 && errors[0] > 3.0 * errors[1] && errors[1] > 3.0 * errors[2], "{errors:?}");
+}
+
+/// Claim: flow goes over to other pressures at its ends, from an imposed pressure and to one, as loads do.
+#[test]
+fn flow_ramps_as_loads_do() {
+    let flow = |ends: &str| format!(r#""joint": {{ "pressure": {{ "flow": {{ "aperture": 1e-3, "viscosity": {MU}, "ends": {ends} }} }} }}"#);
+    let step = |name: &str, n: usize, load: &str| {
+        format!(
+            r#"{{ "name": "{name}", "increments": {n}, "fix": {{ "a": ["x", "y"], "b": ["x", "y"] }}, "load": {{ {load} }} }}"#
+        )
+    };
+    let steps = [
+        step("imposed", 1, r#""joint": { "pressure": 1 }"#),
+        step("flow", 2, &flow("[4, 0]")),
+        step("more", 2, &flow("[8, 2]")),
+        step("kept", 1, ""),
+        step("formula", 2, &flow(r#"["8 + 2*load_factor", 2]"#)),
+        step("off", 2, r#""joint": { "pressure": 0 }"#),
+    ];
+    let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} }}"#);
+    let parts = vec![
+        ("a", block([0.0, 2.0], [-0.5, 0.0], 5, Shape::Quadrilateral4, 0.0)),
+        ("b", block([0.0, 2.0], [0.0, 0.5], 8, Shape::Quadrilateral4, 0.0)),
+    ];
+    let history = r#""u": "joint.uplift", "q": "joint.rate@0""#;
+    let problem = problem(&interfaces, "", &steps.join(", "), history, parts).unwrap();
+    let (states, _) = solve(&problem);
+    // uplift = mean of the ends × 2, q = (p₀ − p₁) g
+    let g = 1e-9 / (12.0 * MU * 2.0);
+    let expected =
+        [(2.0, 0.0), (3.0, 2.0), (4.0, 4.0), (7.0, 5.0), (10.0, 6.0), (10.0, 6.0), (11.0, 7.0), (12.0, 8.0), (6.0, 4.0), (0.0, 0.0)];
+    assert_eq!(states.len(), expected.len());
+    for (row, (state, (uplift, drop))) in states.iter().zip(expected).enumerate() {
+        let probes = state.probes(&problem);
+        close(probes[0], uplift, 1e-12, 1.0, &format!("uplift of row {row}"));
+        close(probes[1], drop * g, 1e-12, g, &format!("rate of row {row}"));
+    }
+}
