@@ -2,4 +2,5 @@
 mod common;
 mod law_help;
 mod flow;
+mod pressurised;
 mod water;

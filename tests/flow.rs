@@ -168,7 +168,7 @@ fn joints_that_meet_share_the_flow_as_pipes_do() {
 /// Claim: rigid blocks on a bed of springs: (w₀ + r)⁴ falls linearly from end to end.
 #[test]
 fn water_opens_its_own_way() {
-    let (k, w0, p0, p1, pressed) = (10.0, 1e-2, 3.0, 0.4, 0.2);
+    let (k, w0, p0, p1, pressed) = (10.0, 1e-2, 3.0, 1.8, 0.2);
     let law = format!(r#"{{ "type": "elastic", "normal_stiffness": {k}, "tangential_stiffness": {k} }}"#);
     let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {law} }}"#);
     // bodies of which every column moves by itself: stiff in y, nothing in x
@@ -182,20 +182,22 @@ fn water_opens_its_own_way() {
         );
         // a strip so thin that it bends with the joint
         let part = |y: [f64; 2], n: usize| rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 1), Shape::Quadrilateral4, |x, y| [x, y]);
-        let parts = vec![("a", part([-1e-6, 0.0], n)), ("b", part([0.0, 1e-6], n))];
+        let parts = vec![("a", part([-1e-9, 0.0], n)), ("b", part([0.0, 1e-9], n))];
         let problem = problem(&interfaces, r#""path_tolerance": 1"#, &steps, r#""q0": "joint.rate@0", "q1": "joint.rate@1""#, parts).unwrap();
         let (states, totals) = solve(&problem);
         let state = &states[0];
-        let residuals = &state.residuals;
-        assert!(residuals.len() <= 12, "{residuals:?}");
-        assert!(*residuals.last().unwrap() < 1e-12, "{residuals:?}");
-        for pair in residuals.windows(2).filter(|pair| pair[0] < 2e-2 && pair[0] > 1e-8) {
-            assert!(pair[1] < 30.0 * pair[0] * pair[0], "{residuals:?}");
+        assert!(*state.residuals.last().unwrap() < 1e-12, "{:?}", state.residuals);
+        // later passes take up what rounding has left of so thin a strip
+        let first = state.residuals.iter().position(|residual| *residual < 1e-12).unwrap();
+        let residuals = &state.residuals[..=first];
+        assert!((4..=8).contains(&first), "{residuals:?}");
+        for pair in residuals.windows(2).filter(|pair| pair[0] < 2e-2 && pair[1] > 1e-14) {
+            assert!(pair[1] < 200.0 * pair[0] * pair[0], "{residuals:?}");
         }
         let probes = state.probes(&problem);
         close(probes[0], probes[1], 1e-12, probes[0], "mass");
-        // K r = p + pressed outwards
-        let w = |p: f64| w0 + (p + pressed) / k;
+        // K r = p − pressed
+        let w = |p: f64| w0 + (p - pressed) / k;
         let [start, end] = [w(p0).powi(4), w(p1).powi(4)];
         let q = k * (start - end) / (4.0 * 12.0 * MU * 2.0);
         let mut error = (probes[0] / q - 1.0).abs();

@@ -1,5 +1,6 @@
 //! Meshes and scenes for tests, made without gmsh.
 
+pub mod boundary;
 pub mod boxes;
 pub mod chains;
 pub mod mesh_text;
