@@ -3,4 +3,5 @@ mod common;
 mod law_help;
 mod flow;
 mod pressurised;
+mod dam;
 mod water;

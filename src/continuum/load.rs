@@ -3,23 +3,31 @@
 use super::element::gradients;
 use crate::shape::{GAUSS_2, GAUSS_3, LINE_NODES, LineRule, LineValues, MAX_NODES, Shape};
 
+/// Lobatto points and weights, four of them, exact for what three Gauss points are.
+const LOBATTO_4: [[f64; 2]; 4] = [
+    [-1.0, 1.0 / 6.0],
+    [-0.447_213_595_499_957_94, 5.0 / 6.0],
+    [0.447_213_595_499_957_94, 5.0 / 6.0],
+    [1.0, 1.0 / 6.0],
+];
+/// An edge's forces are exact to this part of them; parts are halved at most so often.
+const EXACT: f64 = 1e-13;
+const HALVINGS: usize = 40;
+
 /// Points of an edge: shape values, outward normal times dL/dξ · weight. The body lies on the left of the edge.
 fn edge_points(x: &[[f64; 2]; LINE_NODES], shape: Shape) -> impl Iterator<Item = (LineValues, [f64; 2])> {
     let rule = if shape.is_quadratic() { GAUSS_3 } else { GAUSS_2 };
-    edge_points_of(rule, x, shape).map(|(_, n, normal)| (n, normal))
+    rule.iter().map(move |&[xi, weight]| {
+        let (n, normal) = edge_point(x, shape, xi);
+        (n, normal.map(|d| weight * d))
+    })
 }
 
-/// The same with the place ξ of every point, for any rule.
-fn edge_points_of(
-    rule: LineRule,
-    x: &[[f64; 2]; LINE_NODES],
-    shape: Shape,
-) -> impl Iterator<Item = (f64, LineValues, [f64; 2])> {
-    rule.iter().map(move |&[xi, weight]| {
-        let (n, dn) = shape.line_functions(xi);
-        let slope = [0, 1].map(|d| (0..LINE_NODES).map(|i| dn[i] * x[i][d]).sum::<f64>());
-        (xi, n, [weight * slope[1], -weight * slope[0]])
-    })
+/// Shape values at the place ξ of an edge, and the outward normal times dL/dξ.
+fn edge_point(x: &[[f64; 2]; LINE_NODES], shape: Shape, xi: f64) -> (LineValues, [f64; 2]) {
+    let (n, dn) = shape.line_functions(xi);
+    let slope = [0, 1].map(|d| (0..LINE_NODES).map(|i| dn[i] * x[i][d]).sum::<f64>());
+    (n, [slope[1], -slope[0]])
 }
 
 /// Nodal forces (x, y) of an edge under a traction (x, y) and a pressure, both constant [stress]; times thickness.
@@ -43,25 +51,58 @@ pub fn edge_force(
     force
 }
 
-/// The same for a traction and a pressure that vary: `load` gets ξ and the place relative to the origin of `x`.
+/// The same for a traction and a pressure that vary: `load` gets ξ and the place relative to the origin of `x`. Halved until
+/// both halves, and a rule with the ends, give what the whole gives: loads may have kinks, such as that of a water level.
 pub fn edge_field_force<E>(
     x: &[[f64; 2]; LINE_NODES],
     shape: Shape,
     thickness: f64,
     mut load: impl FnMut(f64, [f64; 2]) -> Result<([f64; 2], f64), E>,
 ) -> Result<[[f64; 2]; LINE_NODES], E> {
-    let mut force = [[0.0; 2]; LINE_NODES];
-    for (xi, n, normal) in edge_points_of(GAUSS_3, x, shape) {
-        let place = [0, 1].map(|d| (0..LINE_NODES).map(|i| n[i] * x[i][d]).sum());
-        let (traction, pressure) = load(xi, place)?;
-        let length = normal[0].hypot(normal[1]);
-        for (force, n) in force.iter_mut().zip(n) {
-            for d in 0..2 {
-                force[d] += thickness * n * (traction[d] * length - pressure * normal[d]);
+    let mut on = |rule: LineRule, from: f64, to: f64| -> Result<NodalForces, E> {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let mut force = [[0.0; 2]; LINE_NODES];
+        for &[xi, weight] in rule {
+            let xi = middle + half * xi;
+            let (n, normal) = edge_point(x, shape, xi);
+            let place = [0, 1].map(|d| (0..LINE_NODES).map(|i| n[i] * x[i][d]).sum());
+            let (traction, pressure) = load(xi, place)?;
+            let length = normal[0].hypot(normal[1]);
+            for (force, n) in force.iter_mut().zip(n) {
+                for d in 0..2 {
+                    force[d] += thickness * half * weight * n * (traction[d] * length - pressure * normal[d]);
+                }
             }
+        }
+        Ok(force)
+    };
+    let largest = |force: &NodalForces| force.iter().flatten().map(|f| f.abs()).fold(0.0, f64::max);
+    let whole = on(GAUSS_3, -1.0, 1.0)?;
+    let (mut force, mut size) = ([[0.0; 2]; LINE_NODES], largest(&whole));
+    let mut todo = vec![(-1.0, 1.0, whole, 0)];
+    while let Some((from, to, whole, depth)) = todo.pop() {
+        let middle = 0.5 * (from + to);
+        let halves = [on(GAUSS_3, from, middle)?, on(GAUSS_3, middle, to)?];
+        let both = sum(&halves[0], &halves[1]);
+        size = size.max(largest(&both));
+        // a formula may have no value at an end
+        let ends = on(&LOBATTO_4, from, to).unwrap_or(whole);
+        let off = |other: &NodalForces| largest(&sum(other, &whole.map(|f| f.map(|f| -f)))) > EXACT * size;
+        if depth < HALVINGS && (off(&both) || off(&ends)) {
+            todo.push((from, middle, halves[0], depth + 1));
+            todo.push((middle, to, halves[1], depth + 1));
+        } else {
+            force = sum(&force, &both);
         }
     }
     Ok(force)
+}
+
+/// Forces (x, y) of an edge's nodes.
+type NodalForces = [[f64; 2]; LINE_NODES];
+
+fn sum(a: &NodalForces, b: &NodalForces) -> NodalForces {
+    std::array::from_fn(|i| [a[i][0] + b[i][0], a[i][1] + b[i][1]])
 }
 
 /// ∫ N_i dL of an edge: ends, then inner nodes [length].
@@ -149,6 +190,20 @@ mod tests {
             let force = cell_field_force::<()>(shape, &x, |place| Ok([place[1], 0.0])).unwrap();
             let total: f64 = force.iter().map(|f| f[0]).sum();
             assert!((total - exact).abs() < 1e-14, "{shape:?}: {total}, exact {exact}");
+        }
+    }
+
+    #[test]
+    fn a_water_level_within_an_edge_gives_its_exact_force() {
+        // t = max(0, h − ξ) on −1 to 1: ∫ ½ (1 ∓ ξ) t dξ by hand, d = h + 1 under water
+        let x = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
+        for h in [-0.97, -0.3, 0.123, 0.7, 0.98, 0.9999] {
+            let force = edge_field_force::<()>(&x, Shape::Line2, 1.0, |xi, _| Ok(([f64::max(0.0, h - xi), 0.0], 0.0)));
+            let d: f64 = h + 1.0;
+            let second = d.powi(3) / 12.0;
+            for (force, exact) in force.unwrap().iter().zip([0.5 * d * d - second, second]) {
+                assert!((force[0] - exact).abs() < 1e-11, "{force:?} {exact}");
+            }
         }
     }
 
