@@ -118,7 +118,7 @@ fn a_dam_is_filled_until_it_slides_and_statics_hold_at_every_row() {
         let (level, last) = rows.last().unwrap();
         let [uplift, heel] = [2, 4].map(|k| last.probes(&problem)[k]);
         // the crack has taken water in
-        assert!(heel > 1e-5 && uplift > 0.51 * WATER * level * BASE, "{level}: {heel} {uplift}");
+        assert!(heel > 1e-5 && uplift > 0.505 * WATER * level * BASE, "{level}: {heel} {uplift}");
         failed.push(*level);
     }
     let weight = CONCRETE * 0.5 * (BASE + CREST) * HEIGHT;

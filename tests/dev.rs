@@ -4,4 +4,5 @@ mod law_help;
 mod flow;
 mod pressurised;
 mod dam;
+mod law_cohesive;
 mod water;

@@ -247,3 +247,68 @@ fn flow_ramps_as_loads_do() {
         close(probes[1], drop * g, 1e-12, g, &format!("rate of row {row}"));
     }
 }
+
+/// Claim: a joint that ends on the middle of another is joined with it there.
+#[test]
+fn a_joint_that_ends_on_another_feeds_it() {
+    let (over, aside) = (1e-3, 1.5e-3);
+    let flow = |ends: &str| {
+        format!(r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU}, "ends": {ends} }} }} }}"#)
+    };
+    let steps = format!(
+        r#"{{ "name": "open",
+            "displace": {{ "left": {{ "x": 0, "y": 0 }}, "right": {{ "x": {}, "y": 0 }}, "top": {{ "x": 0, "y": {} }} }},
+            "load": {{ "over": {}, "between": {} }} }}"#,
+        aside - 1e-9,
+        over - 1e-9,
+        flow("[5, 1]"),
+        flow("[null, -2]")
+    );
+    let interfaces = format!(
+        r#""over": {{ "side_a": ["left.top", "right.top"], "side_b": "top.bottom", "law": {SOFT} }},
+           "between": {{ "side_a": "left.right", "side_b": "right.left", "law": {SOFT} }}"#
+    );
+    let history = r#""a": "over.rate@0", "b": "over.rate@1", "c": "between.rate@0", "d": "over.drain_rate""#;
+    let parts = vec![
+        ("left", block([-1.0, 0.0], [-1.0, 0.0], 4, Shape::Quadrilateral4, 0.0)),
+        ("right", block([0.0, 1.5], [-1.0, 0.0], 5, Shape::Quadrilateral4, 0.0)),
+        ("top", block([-1.0, 1.5], [0.0, 1.0], 7, Shape::Quadrilateral4, 0.0)),
+    ];
+    let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
+    let state = solve(&problem).0.pop().unwrap();
+    let g = |w: f64, length: f64| w.powi(3) / (12.0 * MU * length);
+    let pipes = [(g(over, 1.0), 5.0), (g(over, 1.5), 1.0), (g(aside, 1.0), -2.0)];
+    let middle = pipes.iter().map(|(g, p)| g * p).sum::<f64>() / pipes.iter().map(|(g, _)| g).sum::<f64>();
+    let rates = state.probes(&problem);
+    let exact = [pipes[0].0 * (5.0 - middle), pipes[1].0 * (middle - 1.0), pipes[2].0 * (middle + 2.0), 0.0];
+    for (rate, exact) in rates.iter().zip(exact) {
+        close(*rate, exact, 1e-8, exact.abs().max(g(over, 1.0)), &format!("{rates:?}"));
+    }
+    close(rates[0] - rates[1] - rates[2], 0.0, 1e-12, rates[0], "mass");
+}
+
+/// Claim: where a part is not there no water is; it comes with the part.
+#[test]
+fn water_comes_with_its_part() {
+    let flow = format!(r#"{{ "flow": {{ "aperture": 1e-3, "viscosity": {MU}, "ends": [4, 0] }} }}"#);
+    for pressure in ["2".to_string(), r#""2 + 0*opening""#.into(), flow] {
+        let steps = format!(
+            r#"{{ "name": "rock", "fix": {{ "a": ["x", "y"] }}, "load": {{ "joint": {{ "pressure": {pressure} }} }} }},
+               {{ "name": "dam", "increments": 2, "activate": ["b"], "fix": {{ "b": ["x"] }}, "load": {{ "b.top": {{ "pressure": 3 }} }} }},
+               {{ "name": "gone", "deactivate": {{ "b": 1 }} }}"#
+        );
+        let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} }}"#);
+        let parts = vec![
+            ("a", block([0.0, 2.0], [-0.5, 0.0], 5, Shape::Quadrilateral4, 0.0)),
+            ("b", block([0.0, 2.0], [0.0, 0.5], 8, Shape::Quadrilateral4, 0.0)),
+        ];
+        let history = r#""u": "joint.uplift", "n": "joint.total_resultant_n""#;
+        let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
+        let (states, _) = solve(&problem);
+        for (state, [uplift, total]) in states.iter().zip([[0.0, 0.0], [2.0, -3.0], [4.0, -6.0], [0.0, 0.0]]) {
+            let probes = state.probes(&problem);
+            close(probes[0], uplift, 1e-9, 1.0, &format!("{pressure} uplift"));
+            close(probes[1], total, 1e-9, 1.0, &format!("{pressure} total"));
+        }
+    }
+}

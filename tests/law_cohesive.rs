@@ -227,6 +227,10 @@ fn off(law: &Cohesive, jump: Local, old: &State, advance: f64) -> [f64; 2] {
             let spent = (ahead.dissipation - behind.dissipation) / (2.0 * h);
             let size = here.dissipation_gradient.amax().max(here.traction.amax()).max(spent.abs());
             worst[1] = worst[1].max((spent - here.dissipation_gradient[c]).abs() / size);
+            // damage counts as the part of the traction that it takes
+            let damaged = (ahead.state.own[DAMAGE] - behind.state.own[DAMAGE]) / (2.0 * h);
+            let undamaged = law.normal_stiffness * jump.amax();
+            worst[1] = worst[1].max((damaged - here.damage_gradient[c]).abs() * undamaged / scale);
         }
         best = [best[0].min(worst[0]), best[1].min(worst[1])];
     }

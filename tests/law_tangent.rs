@@ -1,4 +1,4 @@
-//! Claim: the stiffness is the exact derivative of the traction, the gradient that of the dissipation.
+//! Claim: the stiffness is the exact derivative of the traction, the gradients those of the dissipation and of the damage.
 //!
 //! Central differences of step δ, (t(r + δ) − t(r − δ)) / 2δ, at random states of random laws. Error control would
 //! choose its sub-steps anew for every jump, so the lengths found at r are replayed over the stencil. Where the
@@ -6,7 +6,7 @@
 //! their quotient changes when δ is halved. They are left out and counted.
 
 use crate::law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Local, LocalMatrix, Response, State, Unloading, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, LocalMatrix, PointLaw, Response, State, Unloading, WORK};
 
 /// Largest difference, relative to the elastic stiffness (or the stiffness itself where it is larger).
 const EXACT: f64 = 1e-6;
@@ -14,17 +14,24 @@ const EXACT: f64 = 1e-6;
 /// Part of G_I that is left where the ties across a crack are about to give way.
 const AT_EXTINCTION: f64 = 1e-8;
 
-/// Central differences of traction (3 × 3) and dissipation (3), with step δ.
-fn quotient(respond: &impl Fn(Local) -> Response, jump: Local, step: f64) -> (LocalMatrix, Local) {
-    let (mut stiffness, mut gradient) = (LocalMatrix::zeros(), Local::zeros());
+/// Central differences of traction (3 × 3), dissipation (3) and damage (3), with step δ.
+fn quotient(
+    law: &Cracking,
+    respond: &impl Fn(Local) -> Response,
+    jump: Local,
+    step: f64,
+) -> (LocalMatrix, Local, Local) {
+    let (mut stiffness, mut gradient, mut damage) = (LocalMatrix::zeros(), Local::zeros(), Local::zeros());
+    let damaged = |response: &Response| law.damage(&response.state).unwrap();
     for i in 0..3 {
         let mut shift = Local::zeros();
         shift[i] = step;
         let (plus, minus) = (respond(jump + shift), respond(jump - shift));
         stiffness.set_column(i, &((plus.traction - minus.traction) / (2.0 * step)));
         gradient[i] = (plus.dissipation - minus.dissipation) / (2.0 * step);
+        damage[i] = (damaged(&plus) - damaged(&minus)) / (2.0 * step);
     }
-    (stiffness, gradient)
+    (stiffness, gradient, damage)
 }
 
 /// A state some random steps away from the sound one, and the jump of the next step.
@@ -44,6 +51,11 @@ fn random_state(random: &mut Random, law: &Cracking) -> (State, Local) {
     (state, state.jump + (drift + random.direction()) * size(random))
 }
 
+/// Stress that gradients count against.
+fn strength_of(law: &Cracking, response: &Response) -> f64 {
+    law.cohesion.max(response.traction.amax())
+}
+
 /// Checks one stencil; `None` if it straddles a kink.
 fn check(
     law: &Cracking,
@@ -60,11 +72,13 @@ fn check(
     }
     let stiffest = law.normal_stiffness.max(law.tangential_stiffness).max(response.stiffness.amax());
     let step = 1e-4 * law.tensile_strength / law.normal_stiffness.max(law.tangential_stiffness);
-    let (coarse, coarse_gradient) = quotient(respond, jump, step);
-    let (fine, fine_gradient) = quotient(respond, jump, 0.5 * step);
-    let strength = law.cohesion.max(response.traction.amax());
+    let (coarse, coarse_gradient, coarse_damage) = quotient(law, respond, jump, step);
+    let (fine, fine_gradient, fine_damage) = quotient(law, respond, jump, 0.5 * step);
+    let per_energy = strength_of(law, &response) / law.fracture_energy_i;
+    let strength = strength_of(law, &response);
     let smooth = (coarse - fine).amax() <= 0.02 * EXACT * stiffest
-        && (coarse_gradient - fine_gradient).amax() <= 0.02 * EXACT * strength;
+        && (coarse_gradient - fine_gradient).amax() <= 0.02 * EXACT * strength
+        && (coarse_damage - fine_damage).amax() <= 0.02 * EXACT * per_energy;
     if !smooth {
         return None;
     }
@@ -76,6 +90,8 @@ fn check(
         "{what}, dissipation: {error:.1e}\n{:?}\n{fine_gradient:?}\n{coarse_gradient:?}\n{response:?}\n{law:?}",
         response.dissipation_gradient
     );
+    let error = (response.damage_gradient - fine_damage).amax() / per_energy;
+    assert!(error <= EXACT, "{what}, damage: {error:.1e}\n{fine_damage:?}\n{response:?}\n{law:?}");
     Some(response.state.status)
 }
 

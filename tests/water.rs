@@ -220,6 +220,41 @@ fn a_pressure_follows_the_damage_of_the_law() {
     }
 }
 
+/// Claim: a cohesive joint under a growing load and water that grows with its opening: λ = t(r)/(P + p(r)) along the whole path,
+/// also where it falls, and as much with the uniform pressure of flow.
+#[test]
+fn a_path_goes_on_where_the_load_must_fall() {
+    let (kn, ft, g, pull) = (1e4, 2.0, 2e-3, 3.0);
+    let (onset, last) = (ft / kn, 2.0 * g / ft);
+    // linear softening
+    let law = |r: f64| if r < onset { kn * r } else { (ft * (last - r) / (last - onset)).max(0.0) };
+    let wet = |r: f64| 1.5 * (r / 1e-3).clamp(0.0, 1.0) + 0.2;
+    let flow = r#"{ "flow": { "aperture": 1e-6, "viscosity": 1, "ends": [0.7, 0.7] } }"#;
+    let cases: [(&str, &dyn Fn(f64) -> f64); 2] =
+        [(r#""1.5*ramp(opening, 0, 1e-3) + 0.2""#, &wet), (flow, &|_| 0.7)];
+    for (pressure, p) in cases {
+        for control in ["auto", "arclength"] {
+            let loads = format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": {pressure} }}"#);
+            let control = format!("\"control\": \"{control}\", \"increments\"");
+            let steps = [step("pull", 30, &loads).replace("\"increments\"", &control)];
+            let problem = blocks(COHESIVE, r#""path_tolerance": 1e-4"#, &steps).unwrap();
+            let march = try_solve(&problem);
+            let (mut most, mut fell) = (0.0_f64, false);
+            for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
+                for [jump, traction, pressure] in values(state) {
+                    close(pressure, load_factor * p(jump), 1e-10, 1.0, "pressure");
+                    close(traction, law(jump), 1e-8, ft, "law");
+                    close(*load_factor * (pull + p(jump)), law(jump), 1e-8, ft, &format!("{control}: load"));
+                }
+                fell |= *load_factor < most;
+                most = most.max(*load_factor);
+            }
+            let deepest = values(march.states.last().unwrap())[0][0];
+            assert!(fell && deepest > 0.9 * last, "{control}: {deepest} of {last}, most {most}");
+        }
+    }
+}
+
 #[test]
 fn what_a_pressure_cannot_be_is_refused() {
     for (law, loads, words) in [
