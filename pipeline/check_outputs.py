@@ -15,6 +15,7 @@ import csv
 import json
 import sys
 import xml.etree.ElementTree as ElementTree
+from fnmatch import fnmatch
 from pathlib import Path
 
 import meshio
@@ -36,6 +37,8 @@ INTERFACE_POINTS = {
     "length": 1,
     "normal": 3,
 }
+WATER_POINTS = {"pressure": 1, "traction_total": 2}
+FLOW_POINTS = {"rate": 1, "hydraulic_aperture": 1}
 MIDPLANE_POINTS = {"arc_length": 1}
 MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 
@@ -137,10 +140,18 @@ def check_subdomain(path, grid, name, scene, faults):
     faults.expect(not yz.any() and not xz.any(), f"{path}: stress yz or xz in a plane scene")
 
 
-def check_interface(path, grid, law, variables, faults):
+def water_of(scene, name):
+    """Pressures that steps give an interface, by its name, its entry or a pattern."""
+    keys = (name, name.partition("~")[0])
+    loads = [item for step in scene["steps"] for item in step.get("load", {}).items()]
+    return [load["pressure"] for key, load in loads if "pressure" in load and "." not in key and (key in keys or fnmatch(name, key))]
+
+
+def check_interface(path, grid, law, variables, water, faults):
     """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none of
-    which is ever negative."""
-    wanted = INTERFACE_POINTS | dict.fromkeys(variables, 1)
+    which is ever negative; with water its pressure is what the total traction lacks, and apertures are above those of closed faces."""
+    flows = [pressure["flow"] for pressure in water if isinstance(pressure, dict)]
+    wanted = INTERFACE_POINTS | dict.fromkeys(variables, 1) | (WATER_POINTS if water else {}) | (FLOW_POINTS if flows else {})
     good = check_arrays(path, "point", grid.point_data, wanted, faults)
     good &= check_arrays(path, "cell", grid.cell_data, {}, faults)
     if not good:
@@ -151,6 +162,14 @@ def check_interface(path, grid, law, variables, faults):
     absent = grid["status"] == ABSENT
     faults.expect(not absent.any() or absent.all(), f"{path}: a part of it is not there")
     faults.expect(not grid["traction"][absent].any(), f"{path}: traction where a part is not there")
+    if water:
+        total = grid["traction"][:, 0] - grid["pressure"]
+        size = max(np.abs(grid["traction"]).max(), np.abs(grid["pressure"]).max(), np.finfo(float).tiny)
+        close = np.abs(grid["traction_total"] - np.column_stack([total, grid["traction"][:, 1]])).max() <= ROUND_OFF * size
+        faults.expect(close, f"{path}: traction_total is not traction less the pressure")
+    if flows and grid["hydraulic_aperture"].any():
+        least = min(flow["aperture"] for flow in flows)
+        faults.expect((grid["hydraulic_aperture"] >= least).all(), f"{path}: an aperture below that of closed faces")
     for name in variables:
         faults.expect((grid[name] >= 0).all(), f"{path}: {name} is negative")
     if law["type"] != "elastic":
@@ -294,7 +313,8 @@ def check(results, scene, energy, expectations, faults):
         if name in scene["subdomains"]:
             check_subdomain(path, grid, name, scene, faults)
         else:
-            check_interface(path, grid, entry_of(scene, name)["law"], variables, faults)
+            law, water = entry_of(scene, name)["law"], water_of(scene, name)
+            check_interface(path, grid, law, variables, water, faults)
             interfaces.setdefault(int(number), {})[name] = grid
     for path in results.glob("midplane/*.vtu"):
         check_midplane(path, faults)

@@ -3,7 +3,7 @@
 import numpy as np
 
 import page
-from page import INK, PALE, RUNS
+from page import GREEN, INK, PALE, RUNS
 
 
 def draw_traction(results, name, law, label, others, exact, title, units):
@@ -21,6 +21,7 @@ def draw_traction(results, name, law, label, others, exact, title, units):
         for component, axis in enumerate(axes):
             look = {"linewidth": 1.0, "marker": "o", "markersize": 2.3, "zorder": 5 - order}
             axis.plot(s, field["traction"][:, component], color=RUNS[order], label=text, **look)
+    draw_water(axes[0], results.interfaces[name], s if len(runs) == 1 else None)
     length = np.linalg.norm(np.diff(points[segments], axis=1), axis=2).sum()
     for component, places, values in exact:
         look = {"color": PALE, "linewidth": 5, "solid_capstyle": "butt", "zorder": 1}
@@ -54,6 +55,13 @@ def deviation(results, name, exact):
         off = np.abs(field["traction"][:, "nt".index(component)] - wanted)
         largest, size = max(largest, off[there].max()), max(size, np.abs(values).max())
     return largest / size
+
+
+def draw_water(axis, field, s):
+    """The pressure between the sides, as a traction; with the effective traction it makes the total one."""
+    if s is not None and "pressure" in field.array_names and field["pressure"].any():
+        axis.fill_between(s, -field["pressure"], 0, color=GREEN, alpha=0.18, linewidth=0, label="water $-p$")
+        axis.plot(s, field["traction_total"][:, 0], color=GREEN, linewidth=1.0, label="total $t_n - p$", zorder=4)
 
 
 def draw_limit(axis, results, name, law):

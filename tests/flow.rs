@@ -287,6 +287,31 @@ fn a_joint_that_ends_on_another_feeds_it() {
     close(rates[0] - rates[1] - rates[2], 0.0, 1e-12, rates[0], "mass");
 }
 
+/// Claim: a part that goes lets go what it pressed on its neighbour with, water included.
+#[test]
+fn water_goes_with_its_part() {
+    let flow = format!(r#"{{ "flow": {{ "aperture": 1e-3, "viscosity": {MU}, "ends": [2, 2] }} }}"#);
+    for pressure in ["2".to_string(), r#""2 + 0*opening""#.into(), flow] {
+        let steps = format!(
+            r#"{{ "name": "load", "fix": {{ "a.bottom": ["x", "y"], "b": ["x"] }},
+                  "load": {{ "joint": {{ "pressure": {pressure} }}, "b.top": {{ "pressure": 3 }} }} }},
+               {{ "name": "gone", "increments": 4, "deactivate": {{ "b": 1 }} }}"#
+        );
+        let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} }}"#);
+        let parts = vec![
+            ("a", block([0.0, 2.0], [-0.5, 0.0], 5, Shape::Quadrilateral4, 0.0)),
+            ("b", block([0.0, 2.0], [0.0, 0.5], 8, Shape::Quadrilateral4, 0.0)),
+        ];
+        let history = r#""y": "a.top.displacement_y", "n": "joint.total_resultant_n""#;
+        let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
+        let (states, _) = solve(&problem);
+        for (state, left) in states.iter().zip([1.0, 0.75, 0.5, 0.25, 0.0]) {
+            close(state.probes(&problem)[0], -3.0 * 0.5 / 1e4 * left, 1e-9, 1.5e-4, &format!("{pressure} top"));
+            close(state.energy_balance(), 0.0, 1e-9, 1.0, "energy");
+        }
+    }
+}
+
 /// Claim: where a part is not there no water is; it comes with the part.
 #[test]
 fn water_comes_with_its_part() {

@@ -1,7 +1,7 @@
 //! The tables of `midplane check`: bodies, interfaces, what is held.
 
 use super::show::Show;
-use crate::problem::{Survey, unused_groups};
+use crate::problem::{Problem, Survey, unused_groups};
 use crate::run::Prepared;
 
 /// Prints what there is, short of solving it.
@@ -55,6 +55,7 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             survey.stiffness_number
         ));
     }
+    flow(show, problem, width);
     let constrained = problem
         .steps
         .first()
@@ -62,5 +63,25 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
     show.line(&format!("{} dofs, {constrained} held in the first step", model.dofs()));
     for warning in unused_groups(&prepared.scene, model) {
         show.warning(&warning);
+    }
+}
+
+/// Prints where water flows, step by step where that changes.
+fn flow(show: &Show, problem: &Problem, width: usize) {
+    let mut told = Vec::new();
+    for step in &problem.steps {
+        let lines = step.water.as_ref().map_or_else(Vec::new, |water| water.lines(&problem.model));
+        if lines == told {
+            continue;
+        }
+        show.line(&format!("{:<width$} {:<30} {:<30} between, step \"{}\"", "flow along", "s = 0", "s = 1", step.name));
+        for along in &lines {
+            let end = |end: usize| {
+                let [x, y, _] = along.ends[end];
+                format!("{} at ({x:.4}, {y:.4})", along.conditions[end])
+            };
+            show.line(&format!("{:<width$} {:<30} {:<30} {}", along.interface, end(0), end(1), along.between));
+        }
+        told = lines;
     }
 }

@@ -1,12 +1,13 @@
 //! Parts that come and go at the start of a step.
 //!
 //! ```text
-//! goes    f ← f − Gᵀ t on its neighbours, held and let go over the step; what it stored goes with it (`released`)
+//! goes    f ← f − Gᵀ (t − p n) on its neighbours, held and let go over the step; what it stored goes with it (`released`)
 //! comes   r₀ = G u, its own u = 0: laws start anew and count jumps from there
 //! ```
 
 use super::held::{HeldForces, absent};
 use super::state::ModelState;
+use super::water::water_at;
 use crate::law::Local;
 use crate::problem::{BoundStep, Problem};
 
@@ -39,6 +40,7 @@ impl ModelState {
         self.snapshot.presence.parts.clone_from(&stage.present);
         let stored = self.stored;
         self.at = (step.number, 0.0);
+        self.snapshot.water = water_at(problem, &self.snapshot, self.at);
         self.recover(problem);
         self.released += stored - self.stored;
     }
@@ -52,7 +54,17 @@ impl ModelState {
                 continue;
             }
             let leading = |t: &Local| <[f64; 3]>::from(*t).into_iter().take(model.components);
-            let tractions: Vec<f64> = self.snapshot.tractions[k].iter().flat_map(leading).collect();
+            let mut tractions: Vec<f64> = self.snapshot.tractions[k].iter().flat_map(leading).collect();
+            if let Some(pressures) = self.snapshot.water.pressures.get(k) {
+                let mut water = vec![0.0; tractions.len()];
+                for (p, pressure) in pressures.iter().enumerate() {
+                    tractions[model.components * p] -= pressure;
+                    water[model.components * p] = -pressure;
+                }
+                if !problem.interfaces[k].coupled_pressure {
+                    interface.add_force(&water, &mut self.force); // it was a load
+                }
+            }
             interface.add_force(&tractions, &mut force);
         }
         force.iter_mut().for_each(|force| *force = -*force);

@@ -258,6 +258,21 @@ impl ModelState {
         self.largest.max(self.work.abs()).max(self.dissipated)
     }
 
+    /// External forces by dof, pressures of all interfaces among them; none where fields are not stored [force].
+    pub fn loads(&self, problem: &Problem) -> Vec<f64> {
+        let mut force = self.force.clone();
+        let coupled = problem.interfaces.iter().map(|bound| bound.coupled_pressure);
+        let interfaces = problem.model.interfaces.iter().zip(coupled).zip(&self.snapshot.water.pressures);
+        let stored = !force.is_empty();
+        for ((operator, _), pressures) in interfaces.filter(|((_, coupled), _)| *coupled && stored) {
+            let mut tractions = vec![0.0; operator.coupling.points.len() * problem.model.components];
+            let normal = tractions.iter_mut().step_by(problem.model.components);
+            normal.zip(pressures).for_each(|(traction, pressure)| *traction = *pressure);
+            operator.add_force(&tractions, &mut force);
+        }
+        force
+    }
+
     /// Work of the viscosity of laws so far, part of what is dissipated [force × length].
     pub(super) fn viscous_work(&self, problem: &Problem) -> f64 {
         let interfaces = problem.model.interfaces.iter().zip(&problem.interfaces).zip(&self.snapshot.states);

@@ -8,7 +8,7 @@ use crate::shape::vector::{dot, minus, norm, plus};
 use crate::water::{FlowLine, FlowNode, Interval, Network, Slopes, Station};
 
 use super::quantity::Quantity;
-use super::water::{FlowSlopes, WaterAnswer, WaterPoint};
+use super::water::{FlowAlong, FlowSlopes, WaterAnswer, WaterPoint};
 
 /// Ends meet within this part of the longer interval beside them, as boundaries do in `between`.
 const MEET: f64 = 1e-3;
@@ -160,6 +160,27 @@ impl BoundFlow {
         let drains = |own: &StatedFlow| own.flow.drains.iter().map(|drain| place(own, drain.at)).collect();
         let drains = stated.iter().map(drains).collect();
         Ok(BoundFlow { network, boundaries, drains, follows })
+    }
+
+    /// The lines in words.
+    pub(super) fn lines(&self, model: &Model) -> Vec<FlowAlong> {
+        let all = || self.network.lines.iter().flat_map(|line| &line.stations);
+        let condition = |node: usize| match self.network.nodes[node] {
+            _ if all().filter(|station| station.node == node).count() > 1 => "joined",
+            FlowNode::Given(_) => "given",
+            FlowNode::Free => "wall",
+        };
+        let of = |line: &FlowLine| {
+            let operator = &model.interfaces[line.interface];
+            let last = line.stations.len() - 1;
+            FlowAlong {
+                interface: operator.name.clone(),
+                ends: line_ends(operator).map(|end| end.place),
+                conditions: [0, last].map(|k| condition(line.stations[k].node)),
+                between: last - 1,
+            }
+        };
+        self.network.lines.iter().map(of).collect()
     }
 
     /// The given pressures at a load factor; those of a flow `before` in the same network go over to them.

@@ -47,7 +47,7 @@ pub use stiffness::stiffness_number;
 pub use supports::{Duty, duties};
 pub use survey::Survey;
 pub use unused::unused_groups;
-pub use water::{EndRates, FlowSlopes, StepWater, WaterAnswer, WaterFields, WaterPoint};
+pub use water::{EndRates, FlowAlong, FlowSlopes, StepWater, WaterAnswer, WaterFields, WaterPoint};
 
 use curve::PlannedInterface;
 use ground::StressAt;

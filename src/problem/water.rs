@@ -95,6 +95,19 @@ pub struct WaterAnswer {
     pub flow_slopes: Vec<FlowSlopes>,
 }
 
+/// Flow along an interface in words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlowAlong {
+    /// Name of the interface.
+    pub interface: String,
+    /// Places of its ends, s = 0 and s = 1.
+    pub ends: [[f64; 3]; 2],
+    /// Conditions there: "given", "joined" or "wall".
+    pub conditions: [&'static str; 2],
+    /// Nodes between its ends: drains, and joints that end on it.
+    pub between: usize,
+}
+
 /// Derivatives of the pressures of flow by the normal jumps.
 #[derive(Debug, Clone)]
 pub struct FlowSlopes {
@@ -197,6 +210,11 @@ impl StepWater {
             flow.add(model, &given, &weight, point, with_slopes, &mut answer);
         }
         Ok(answer)
+    }
+
+    /// The lines along which water flows in the step, as `midplane check` tells them.
+    pub fn lines(&self, model: &Model) -> Vec<FlowAlong> {
+        self.flows[1].as_ref().map_or_else(Vec::new, |flow| flow.lines(model))
     }
 
     /// Asks every formula in load_factor for the touching faces, so that none fails half-way.

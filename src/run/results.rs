@@ -56,7 +56,7 @@ impl<'a> Results<'a> {
             self.stored = increment.increment;
         }
         if !state.force.is_empty() {
-            self.balance = Some(summary::balance(&problem.model, &state.force, &state.reactions));
+            self.balance = Some(summary::balance(&problem.model, &state.loads(problem), &state.reactions));
         }
         self.totals = totals.clone();
         if increment.ended {
