@@ -25,6 +25,7 @@ import rows_mesh_file  # noqa: F401
 import rows_run  # noqa: F401
 import rows_scene  # noqa: F401
 import rows_stiffness  # noqa: F401
+import rows_water  # noqa: F401
 from program import Never, Program
 from row import ROWS, Claim, Trial
 
@@ -41,7 +42,7 @@ def main():
     parser.add_argument("--quick", action="store_true", help="shorter sweeps, for every change")
     parser.add_argument("rows", nargs="*", help="only these, such as B9")
     arguments = parser.parse_intermixed_args()
-    missing = [f"B{i}" for i in range(1, 51) if f"B{i}" not in [entry[0] for entry in ROWS]]
+    missing = [f"B{i}" for i in range(1, 53) if f"B{i}" not in [entry[0] for entry in ROWS]]
     if missing:
         sys.exit(f"there is no row {', '.join(missing)}")
     chosen = [entry for entry in ROWS if not arguments.rows or entry[0] in arguments.rows]
