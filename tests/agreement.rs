@@ -21,7 +21,7 @@ fn scenes() -> Vec<PathBuf> {
         .filter(|file| {
             let text = std::fs::read_to_string(file).unwrap();
             let of = |name: &str| file.parent().is_some_and(|folder| folder.ends_with(name));
-            let left_out = of("rough_joint") || of("tunnel");
+            let left_out = of("rough_joint") || of("tunnel") || of("dam");
             text.contains("\"subdomains\"") && !text.contains("\"control\"") && !left_out
         })
         .collect();

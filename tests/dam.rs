@@ -37,8 +37,10 @@ fn dam(tensile_strength: f64, steps: &[String]) -> Problem {
         steps.join(", ")
     );
     let trapezoid = |x: f64, y: f64| [x * (1.0 - (1.0 - CREST / BASE) * y / HEIGHT), y];
-    let dam = rectangle(&even(0.0, BASE, 24), &graded(0.0, HEIGHT, 12, 3.0), Shape::Quadrilateral4, trapezoid);
-    let rock = rectangle(&even(0.0, BASE, 17), &graded(-40.0, 0.0, 8, 0.3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let dam =
+        rectangle(&even(0.0, BASE, 24), &graded(0.0, HEIGHT, 12, 3.0), Shape::Quadrilateral4, trapezoid);
+    let rock =
+        rectangle(&even(0.0, BASE, 17), &graded(-40.0, 0.0, 8, 0.3), Shape::Quadrilateral4, |x, y| [x, y]);
     bind(&text, vec![dam, rock]).unwrap()
 }
 
@@ -99,7 +101,11 @@ fn check(problem: &Problem, level: impl Fn(usize, f64) -> f64) -> (Vec<(f64, Mod
         close(probes[0], n, 1e-12, weight, "probe N");
         close(probes[1], t, 1e-12, weight, "probe T");
         let full = WATER * h * BASE;
-        assert!((0.5 * full * (1.0 - 1e-3)..=full * (1.0 + 1e-9)).contains(&probes[2]), "U {} of {full} at {h} m", probes[2]);
+        assert!(
+            (0.5 * full * (1.0 - 1e-3)..=full * (1.0 + 1e-9)).contains(&probes[2]),
+            "U {} of {full} at {h} m",
+            probes[2]
+        );
         rows.push((h, state.clone()));
     });
     (rows, end.is_ok())
@@ -113,7 +119,8 @@ fn a_dam_is_filled_until_it_slides_and_statics_hold_at_every_row() {
     for joint in [follows_the_crack, flows] {
         let steps = [water("filling", 30, "100*load_factor", &joint("100*load_factor"))];
         let problem = dam(0.3, &steps);
-        let (rows, done) = check(&problem, |step, load_factor| if step == 0 { 0.0 } else { 100.0 * load_factor });
+        let (rows, done) =
+            check(&problem, |step, load_factor| if step == 0 { 0.0 } else { 100.0 * load_factor });
         assert!(!done, "the dam stands at 100 m");
         let (level, last) = rows.last().unwrap();
         let [uplift, heel] = [2, 4].map(|k| last.probes(&problem)[k]);
@@ -138,7 +145,8 @@ fn a_dam_that_is_emptied_closes_its_crack() {
             water("emptying", 8, "76*(1 - load_factor)", &joint("76*(1 - load_factor)")),
         ];
         let problem = dam(0.3, &steps);
-        let level = |step: usize, load_factor: f64| [0.0, 76.0 * load_factor, 76.0 * (1.0 - load_factor)][step];
+        let level =
+            |step: usize, load_factor: f64| [0.0, 76.0 * load_factor, 76.0 * (1.0 - load_factor)][step];
         let (rows, done) = check(&problem, level);
         assert!(done);
         let heel = |k: usize| rows[k].1.snapshot.jumps[0][0][0];

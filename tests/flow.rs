@@ -22,8 +22,10 @@ fn problem(
     history: &str,
     parts: Vec<(&str, Mesh)>,
 ) -> midplane::error::Result<Problem> {
-    let named: Vec<String> =
-        parts.iter().map(|(name, _)| format!(r#""{name}": {{ "msh": "{name}", "material": "rock" }}"#)).collect();
+    let named: Vec<String> = parts
+        .iter()
+        .map(|(name, _)| format!(r#""{name}": {{ "msh": "{name}", "material": "rock" }}"#))
+        .collect();
     let text = format!(
         r#"{{ "plane": "strain",
           "subdomains": {{ {} }},
@@ -39,13 +41,19 @@ fn problem(
 
 fn block(x: [f64; 2], y: [f64; 2], n: usize, shape: Shape, degrees: f64) -> Mesh {
     let turned = rotation(degrees);
-    rectangle(&graded(x[0], x[1], n, 3.0), &even(y[0], y[1], 2), shape, move |x, y| turned(x, y))
+    rectangle(&graded(x[0], x[1], n, 3.0), &even(y[0], y[1], 2), shape, turned)
 }
 
 const SOFT: &str = r#"{ "type": "elastic", "normal_stiffness": 1, "tangential_stiffness": 1 }"#;
 
 /// Two blocks whose jump is given throughout: r_n = a − w₀ + b s along the joint of 2 m.
-fn wedge(shape: Shape, coupling: &str, degrees: f64, [w0, start, slope]: [f64; 3], flow: &str) -> (Problem, ModelState) {
+fn wedge(
+    shape: Shape,
+    coupling: &str,
+    degrees: f64,
+    [w0, start, slope]: [f64; 3],
+    flow: &str,
+) -> (Problem, ModelState) {
     let (sin, cos) = f64::to_radians(degrees).sin_cos();
     let along = format!("(({cos})*x + ({sin})*y)");
     let opening = format!("({} + ({slope})*{along})", start - w0);
@@ -54,7 +62,8 @@ fn wedge(shape: Shape, coupling: &str, degrees: f64, [w0, start, slope]: [f64; 3
             "displace": {{ "b": {{ "x": "-({sin})*{opening}", "y": "({cos})*{opening}" }} }},
             "load": {{ "joint": {{ "pressure": {{ "flow": {{ "aperture": {w0}, "viscosity": {MU}, {flow} }} }} }} }} }}"#
     );
-    let interfaces = format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} {coupling} }}"#);
+    let interfaces =
+        format!(r#""joint": {{ "side_a": "a.top", "side_b": "b.bottom", "law": {SOFT} {coupling} }}"#);
     let history = r#""q0": "joint.rate@0", "q1": "joint.rate@1", "d": "joint.drain_rate", "w": "joint.hydraulic_aperture@0.5""#;
     let parts = vec![
         ("a", block([0.0, 2.0], [-0.5, 0.0], 5, shape, degrees)),
@@ -76,9 +85,12 @@ fn a_wedge_is_exact_on_every_grid() {
     let flow = format!(r#""ends": [{p0}, {p1}]"#);
     for shape in [Shape::Triangle3, Shape::Quadrilateral4, Shape::Quadrilateral8] {
         for coupling in ["", r#", "coupling": "pointwise""#, r#", "quadrature": "lobatto""#] {
-            for (degrees, opening) in
-                [(0.0, [1e-3, 1e-3, 2e-3]), (30.0, [1e-4, 6e-3, -2e-3]), (-70.0, [1e-3, 1e-3, 0.0]), (0.0, [1e-6, 1e-6, 1e-2])]
-            {
+            for (degrees, opening) in [
+                (0.0, [1e-3, 1e-3, 2e-3]),
+                (30.0, [1e-4, 6e-3, -2e-3]),
+                (-70.0, [1e-3, 1e-3, 0.0]),
+                (0.0, [1e-6, 1e-6, 1e-2]),
+            ] {
                 let (problem, state) = wedge(shape, coupling, degrees, opening, &flow);
                 let [_, a, b] = opening;
                 let whole = resistance(a, b, 2.0);
@@ -112,7 +124,9 @@ fn a_drain_takes_what_comes_from_both_sides_and_a_wall_holds_it() {
     for (value, exact) in [(probes[0], q), (probes[1], 0.0), (probes[2], q)] {
         close(value, exact, 1e-8, q, "rates");
     }
-    for (point, p) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.water.pressures[0]) {
+    for (point, p) in
+        problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.water.pressures[0])
+    {
         let exact = if point.s < 0.7 { 3.0 - 2.45 * resistance(a, b, point.s) / whole } else { 0.55 };
         close(*p, exact, 1e-8, 3.0, &format!("p at {}", point.s));
     }
@@ -124,14 +138,21 @@ fn joints_that_meet_share_the_flow_as_pipes_do() {
     let (left, right, up) = (1e-3, 2e-3, 1.5e-3);
     let given = |name: &str, x: f64, y: f64| format!(r#""{name}": {{ "x": {x}, "y": {y} }}"#);
     // the top block rises by 1e-3 over the left one and by 2e-3 over the right one, which goes down and aside
-    let displaced = [given("left", 0.0, 0.0), given("right", up - 1e-9, left - right), given("top", 0.0, left)];
-    let flow = |ends: &str| format!(r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU} {ends} }} }} }}"#);
+    let displaced =
+        [given("left", 0.0, 0.0), given("right", up - 1e-9, left - right), given("top", 0.0, left)];
+    let flow = |ends: &str| {
+        format!(r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU} {ends} }} }} }}"#)
+    };
     for ends_of_top in ["", r#", "ends": [null, "joined"]"#] {
         let steps = format!(
             r#"{{ "name": "open", "increments": 2, "displace": {{ {} }},
                 "load": {{ "j~left~top": {}, "j~right~top": {}, "j~left~right": {} }} }}"#,
             displaced.join(", "),
-            flow(if ends_of_top.is_empty() { r#", "ends": [5, "joined"]"# } else { r#", "ends": [5, null]"# }),
+            flow(if ends_of_top.is_empty() {
+                r#", "ends": [5, "joined"]"#
+            } else {
+                r#", "ends": [5, null]"#
+            }),
             flow(r#", "ends": [null, 1]"#),
             flow(r#", "ends": [null, -2]"#),
         );
@@ -150,7 +171,8 @@ fn joints_that_meet_share_the_flow_as_pipes_do() {
         for (state, part) in states.iter().zip([0.5, 1.0]) {
             let w = |full: f64| 1e-9 + part * full;
             let pipes = [(g(w(left), 1.0), 5.0), (g(w(right), 1.5), 1.0), (g(w(up - 1e-9), 1.0), -2.0)];
-            let middle = pipes.iter().map(|(g, p)| g * p * part).sum::<f64>() / pipes.iter().map(|(g, _)| g).sum::<f64>();
+            let middle = pipes.iter().map(|(g, p)| g * p * part).sum::<f64>()
+                / pipes.iter().map(|(g, _)| g).sum::<f64>();
             let rates = state.probes(&problem);
             let inwards = pipes.map(|(g, p)| g * (p * part - middle));
             // s of every interface runs where its own chain A does: the signs follow from which end is given
@@ -174,16 +196,26 @@ fn water_opens_its_own_way() {
     // bodies of which every column moves by itself: stiff in y, nothing in x
     let mut errors = Vec::new();
     for n in [6, 12, 24] {
-        let flow = format!(r#"{{ "flow": {{ "aperture": {w0}, "viscosity": {MU}, "ends": [{p0}, {p1}] }} }}"#);
+        let flow =
+            format!(r#"{{ "flow": {{ "aperture": {w0}, "viscosity": {MU}, "ends": [{p0}, {p1}] }} }}"#);
         let steps = format!(
             r#"{{ "name": "water", "increments": 1, "fix": {{ "a": ["x", "y"], "b": ["x"] }},
                 "load": {{ "b.bottom": {{ "pressure": {} }}, "joint": {{ "pressure": {flow} }} }} }}"#,
             -pressed
         );
         // a strip so thin that it bends with the joint
-        let part = |y: [f64; 2], n: usize| rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 1), Shape::Quadrilateral4, |x, y| [x, y]);
+        let part = |y: [f64; 2], n: usize| {
+            rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 1), Shape::Quadrilateral4, |x, y| [x, y])
+        };
         let parts = vec![("a", part([-1e-9, 0.0], n)), ("b", part([0.0, 1e-9], n))];
-        let problem = problem(&interfaces, r#""path_tolerance": 1"#, &steps, r#""q0": "joint.rate@0", "q1": "joint.rate@1""#, parts).unwrap();
+        let problem = problem(
+            &interfaces,
+            r#""path_tolerance": 1"#,
+            &steps,
+            r#""q0": "joint.rate@0", "q1": "joint.rate@1""#,
+            parts,
+        )
+        .unwrap();
         let (states, totals) = solve(&problem);
         let state = &states[0];
         assert!(*state.residuals.last().unwrap() < 1e-12, "{:?}", state.residuals);
@@ -201,7 +233,8 @@ fn water_opens_its_own_way() {
         let [start, end] = [w(p0).powi(4), w(p1).powi(4)];
         let q = k * (start - end) / (4.0 * 12.0 * MU * 2.0);
         let mut error = (probes[0] / q - 1.0).abs();
-        for (point, jump) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.jumps[0]) {
+        for (point, jump) in problem.model.interfaces[0].coupling.points.iter().zip(&state.snapshot.jumps[0])
+        {
             let exact = (start + (end - start) * point.s / 2.0).powf(0.25) - w0;
             error = error.max((jump[0] / exact - 1.0).abs());
         }
@@ -214,7 +247,11 @@ fn water_opens_its_own_way() {
 /// Claim: flow goes over to other pressures at its ends, from an imposed pressure and to one, as loads do.
 #[test]
 fn flow_ramps_as_loads_do() {
-    let flow = |ends: &str| format!(r#""joint": {{ "pressure": {{ "flow": {{ "aperture": 1e-3, "viscosity": {MU}, "ends": {ends} }} }} }}"#);
+    let flow = |ends: &str| {
+        format!(
+            r#""joint": {{ "pressure": {{ "flow": {{ "aperture": 1e-3, "viscosity": {MU}, "ends": {ends} }} }} }}"#
+        )
+    };
     let step = |name: &str, n: usize, load: &str| {
         format!(
             r#"{{ "name": "{name}", "increments": {n}, "fix": {{ "a": ["x", "y"], "b": ["x", "y"] }}, "load": {{ {load} }} }}"#
@@ -238,8 +275,18 @@ fn flow_ramps_as_loads_do() {
     let (states, _) = solve(&problem);
     // uplift = mean of the ends × 2, q = (p₀ − p₁) g
     let g = 1e-9 / (12.0 * MU * 2.0);
-    let expected =
-        [(2.0, 0.0), (3.0, 2.0), (4.0, 4.0), (7.0, 5.0), (10.0, 6.0), (10.0, 6.0), (11.0, 7.0), (12.0, 8.0), (6.0, 4.0), (0.0, 0.0)];
+    let expected = [
+        (2.0, 0.0),
+        (3.0, 2.0),
+        (4.0, 4.0),
+        (7.0, 5.0),
+        (10.0, 6.0),
+        (10.0, 6.0),
+        (11.0, 7.0),
+        (12.0, 8.0),
+        (6.0, 4.0),
+        (0.0, 0.0),
+    ];
     assert_eq!(states.len(), expected.len());
     for (row, (state, (uplift, drop))) in states.iter().zip(expected).enumerate() {
         let probes = state.probes(&problem);
@@ -253,7 +300,9 @@ fn flow_ramps_as_loads_do() {
 fn a_joint_that_ends_on_another_feeds_it() {
     let (over, aside) = (1e-3, 1.5e-3);
     let flow = |ends: &str| {
-        format!(r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU}, "ends": {ends} }} }} }}"#)
+        format!(
+            r#"{{ "pressure": {{ "flow": {{ "aperture": 1e-9, "viscosity": {MU}, "ends": {ends} }} }} }}"#
+        )
     };
     let steps = format!(
         r#"{{ "name": "open",
@@ -306,7 +355,13 @@ fn water_goes_with_its_part() {
         let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
         let (states, _) = solve(&problem);
         for (state, left) in states.iter().zip([1.0, 0.75, 0.5, 0.25, 0.0]) {
-            close(state.probes(&problem)[0], -3.0 * 0.5 / 1e4 * left, 1e-9, 1.5e-4, &format!("{pressure} top"));
+            close(
+                state.probes(&problem)[0],
+                -3.0 * 0.5 / 1e4 * left,
+                1e-9,
+                1.5e-4,
+                &format!("{pressure} top"),
+            );
             close(state.energy_balance(), 0.0, 1e-9, 1.0, "energy");
         }
     }
@@ -330,7 +385,8 @@ fn water_comes_with_its_part() {
         let history = r#""u": "joint.uplift", "n": "joint.total_resultant_n""#;
         let problem = problem(&interfaces, "", &steps, history, parts).unwrap();
         let (states, _) = solve(&problem);
-        for (state, [uplift, total]) in states.iter().zip([[0.0, 0.0], [2.0, -3.0], [4.0, -6.0], [0.0, 0.0]]) {
+        for (state, [uplift, total]) in states.iter().zip([[0.0, 0.0], [2.0, -3.0], [4.0, -6.0], [0.0, 0.0]])
+        {
             let probes = state.probes(&problem);
             close(probes[0], uplift, 1e-9, 1.0, &format!("{pressure} uplift"));
             close(probes[1], total, 1e-9, 1.0, &format!("{pressure} total"));

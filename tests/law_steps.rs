@@ -73,8 +73,9 @@ fn a_million_steps_of_coulomb_joints() {
                 wedged += 1;
                 continue;
             };
-            let Response { state: new, traction, stiffness, dissipation, dissipation_gradient, released } =
-                response;
+            let Response {
+                state: new, traction, stiffness, dissipation, dissipation_gradient, released, ..
+            } = response;
             let all = stiffness.iter().chain(&dissipation_gradient).chain(&traction).chain(&new.jump_plastic);
             assert!(all.copied().all(f64::is_finite), "{own:?} {state:?} {jump:?} {response:?}");
             let size = size(&own, &state, &response);

@@ -6,7 +6,9 @@
 //! their quotient changes when δ is halved. They are left out and counted.
 
 use crate::law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Local, LocalMatrix, PointLaw, Response, State, Unloading, WORK};
+use midplane::law::{
+    Cracking, Integration, Law, Local, LocalMatrix, PointLaw, Response, State, Unloading, WORK,
+};
 
 /// Largest difference, relative to the elastic stiffness (or the stiffness itself where it is larger).
 const EXACT: f64 = 1e-6;

@@ -118,7 +118,8 @@ fn difference(
 fn between(fracture: &[Element], values: &[f64], x: [f64; 2]) -> f64 {
     let [start, end] = [fracture[0].ends[0], fracture[fracture.len() - 1].ends[1]];
     let way = [end[0] - start[0], end[1] - start[1]];
-    let share = ((x[0] - start[0]) * way[0] + (x[1] - start[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+    let share =
+        ((x[0] - start[0]) * way[0] + (x[1] - start[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]);
     let at = share * fracture.len() as f64 - 0.5;
     let k = (at.floor().max(0.0) as usize).min(fracture.len() - 2);
     values[k] + (at - k as f64) * (values[k + 1] - values[k])
@@ -127,7 +128,8 @@ fn between(fracture: &[Element], values: &[f64], x: [f64; 2]) -> f64 {
 #[test]
 fn a_t_of_two_fractures_is_that_of_boundary_elements() {
     let (e, nu) = (70e3, 0.2);
-    let plane = Plane { young: e, poisson: nu, remote: [0.0, -100.0, 0.0], friction: 30f64.to_radians().tan() };
+    let plane =
+        Plane { young: e, poisson: nu, remote: [0.0, -100.0, 0.0], friction: 30f64.to_radians().tan() };
     let n = 100; // twice as many change the slip by 0.6 %
     let mut all: Vec<Element> = elements([0.0, -100.0], [0.0, 0.0], 4 * n, Contact::Pressed(100.0));
     all.extend(elements([-25.0, 0.0], [0.0, 0.0], n, Contact::Slides(1.0)));
@@ -151,7 +153,8 @@ fn a_t_of_two_fractures_is_that_of_boundary_elements() {
         let values: Vec<f64> = found[parts[k].clone()].iter().map(value).collect();
         between(&all[parts[k].clone()], &values, x)
     };
-    let opening = difference(&problem, 0, |p| jump(0, p, 0), |x| (x[1] > -98.0).then(|| exact(0, &|f| f.opening, x)));
+    let opening =
+        difference(&problem, 0, |p| jump(0, p, 0), |x| (x[1] > -98.0).then(|| exact(0, &|f| f.opening, x)));
     assert!(opening < 0.02, "opening {opening}");
     for k in [1, 2] {
         let slip = difference(&problem, k, |p| jump(k, p, 1).abs(), |x| Some(exact(k, &|f| f.slip.abs(), x)));

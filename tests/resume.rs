@@ -17,6 +17,12 @@ const STAGES: &str = r#",
             {"name": "again", "increments": 2, "activate": ["upper"]},
             {"name": "cold", "increments": 2, "strain": {"upper": [-1e-4, -1e-4, -1e-4, 0]}}"#;
 
+/// Water that follows the opening, and flow after it.
+const WATER: &str = r#",
+            {"name": "water", "increments": 3, "load": {"joint": {"pressure": "0.2 + 2*ramp(opening, 0, 1e-4)"}}},
+            {"name": "flow", "increments": 3, "load": {
+                "joint": {"pressure": {"flow": {"aperture": 1e-5, "viscosity": 1, "ends": [1, 0]}}}}}"#;
+
 fn problem(law: &str, control: &str, strategy: &str, fields: &str, more: &str) -> Problem {
     let text = format!(
         r#"{{"plane": "strain",
@@ -49,6 +55,9 @@ fn shown(problem: &Problem, state: &ModelState, iterations: usize) -> Vec<f64> {
     all.extend(&state.reactions);
     all.extend(state.snapshot.tractions.iter().flatten().flatten());
     all.extend(state.snapshot.jumps.iter().flatten().flatten());
+    all.extend(state.snapshot.water.pressures.iter().flatten());
+    all.extend(state.snapshot.water.rates.iter().flatten());
+    all.push(state.water_work);
     all
 }
 
@@ -75,6 +84,9 @@ fn an_interrupted_history_goes_on_as_if_it_had_not_been() {
         (coulomb, "load", "plain", "every", STAGES, 0.0),
         (coulomb, "load", "blocks", "last", STAGES, 0.0),
         (elastic, "load", "auto", "step", STAGES, 0.0),
+        (CRACKING, "auto", "condensed", "every", WATER, 0.0),
+        (coulomb, "load", "condensed", "step", WATER, 0.0),
+        (elastic, "load", "auto", "last", WATER, 0.0),
     ];
     for (law, control, strategy, fields, more, tolerance) in cases {
         let what = format!("{law} {control} {strategy} {fields}{more}");

@@ -16,10 +16,8 @@ use midplane::shape::Shape;
 
 const E: f64 = 1e4;
 const K: f64 = 1e4;
-const KT: f64 = 5e3;
 const ELASTIC: &str = r#"{ "type": "elastic", "normal_stiffness": 1e4, "tangential_stiffness": 5e3 }"#;
-const COULOMB: &str =
-    r#"{ "type": "coulomb", "normal_stiffness": 1e4, "tangential_stiffness": 5e3, "friction_coefficient": 0.5 }"#;
+const COULOMB: &str = r#"{ "type": "coulomb", "normal_stiffness": 1e4, "tangential_stiffness": 5e3, "friction_coefficient": 0.5 }"#;
 const COHESIVE: &str = r#"{ "type": "cohesive", "normal_stiffness": 1e4, "tangential_stiffness": 5e3,
     "tensile_strength": 2, "shear_strength": 3, "fracture_energy_i": 2e-3, "fracture_energy_ii": 4e-3 }"#;
 const CRACKING: &str = r#"{ "type": "cracking", "normal_stiffness": 1e4, "tangential_stiffness": 5e3,
@@ -123,8 +121,7 @@ fn converges_quadratically(state: &ModelState, totals: &Totals) {
     let residuals = &state.residuals;
     assert!(residuals.len() <= 8, "{residuals:?}");
     assert!(totals.rejected == 0, "{totals:?}");
-    let near: Vec<&[f64]> =
-        residuals.windows(2).filter(|pair| pair[0] < 1e-2 && pair[1] > 1e-13).collect();
+    let near: Vec<&[f64]> = residuals.windows(2).filter(|pair| pair[0] < 1e-2 && pair[1] > 1e-13).collect();
     for pair in near {
         assert!(pair[1] < 20.0 * pair[0] * pair[0], "{residuals:?}");
     }
@@ -136,7 +133,9 @@ fn a_pressure_that_follows_the_opening_has_its_own_stiffness() {
     for law in [ELASTIC, COHESIVE, CRACKING] {
         for name in ["condensed", "blocks", "plain"] {
             // linear: K − p₁/w
-            let formula = format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": "{p1}*ramp(opening, 0, {w})" }}"#);
+            let formula = format!(
+                r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": "{p1}*ramp(opening, 0, {w})" }}"#
+            );
             let problem = blocks(law, &strategy(name), &[step("pull", 3, &formula)]).unwrap();
             let (states, totals) = solve(&problem);
             // the load and the pressure ramp alike: K r = λ (P + p₁ r/w)
@@ -151,8 +150,13 @@ fn a_pressure_that_follows_the_opening_has_its_own_stiffness() {
             assert!(totals.energy_balance < 2e-4, "{totals:?}");
             // a parabola
             let c = 1.5e7;
-            let formula = format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": "{c}*opening^2" }}"#);
-            let problem = blocks(law, &format!(r#""strategy": "{name}", "path_tolerance": 1"#), &[step("pull", 1, &formula)]);
+            let formula =
+                format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": "{c}*opening^2" }}"#);
+            let problem = blocks(
+                law,
+                &format!(r#""strategy": "{name}", "path_tolerance": 1"#),
+                &[step("pull", 1, &formula)],
+            );
             let problem = problem.unwrap();
             let (states, totals) = solve(&problem);
             let exact = (K - (K * K - 4.0 * c * pull).sqrt()) / (2.0 * c);
@@ -173,10 +177,20 @@ fn formulas_of_the_load_factor_and_steps_go_over_as_loads_do() {
     ];
     let problem = blocks(COHESIVE, "", &steps).unwrap();
     let (states, totals) = solve(&problem);
-    for (k, (p, total)) in
-        [(0.5, 1.5), (1.0, 3.0), (1.5, 3.0), (2.0, 3.0), (2.0, 3.5), (2.0, 4.0), (0.5, 4.0), (0.5, 4.0), (0.75, 4.0), (1.0, 4.0)]
-            .into_iter()
-            .enumerate()
+    for (k, (p, total)) in [
+        (0.5, 1.5),
+        (1.0, 3.0),
+        (1.5, 3.0),
+        (2.0, 3.0),
+        (2.0, 3.5),
+        (2.0, 4.0),
+        (0.5, 4.0),
+        (0.5, 4.0),
+        (0.75, 4.0),
+        (1.0, 4.0),
+    ]
+    .into_iter()
+    .enumerate()
     {
         let [n, all, uplift, ..] = probes(&problem, &states[k]);
         close(uplift, p, 1e-11, 1.0, &format!("uplift of row {k}"));
@@ -234,7 +248,8 @@ fn a_path_goes_on_where_the_load_must_fall() {
         [(r#""1.5*ramp(opening, 0, 1e-3) + 0.2""#, &wet), (flow, &|_| 0.7)];
     for (pressure, p) in cases {
         for control in ["auto", "arclength"] {
-            let loads = format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": {pressure} }}"#);
+            let loads =
+                format!(r#""b.top": {{ "pressure": -{pull} }}, "joint": {{ "pressure": {pressure} }}"#);
             let control = format!("\"control\": \"{control}\", \"increments\"");
             let steps = [step("pull", 30, &loads).replace("\"increments\"", &control)];
             let problem = blocks(COHESIVE, r#""path_tolerance": 1e-4"#, &steps).unwrap();
@@ -259,16 +274,44 @@ fn a_path_goes_on_where_the_load_must_fall() {
 fn what_a_pressure_cannot_be_is_refused() {
     for (law, loads, words) in [
         (ELASTIC, r#""joint": { "traction": [1, 0] }"#, "\"joint\" is an interface; give it a \"pressure\""),
-        (ELASTIC, r#""joints": { "pressure": 1 }"#, "no subdomain \"joints\""),
+        (
+            ELASTIC,
+            r#""joints": { "pressure": 1 }"#,
+            "no subdomain or interface \"joints\"; there is a, b, joint. Did you mean \"joint\"?",
+        ),
         (ELASTIC, r#""j?": { "pressure": 1 }"#, "no interface is called like \"j?\"; there is joint"),
-        (ELASTIC, r#""joint": { "pressure": "damage" }"#, "damage in \"damage\", but the law of joint has none"),
+        (
+            ELASTIC,
+            r#""joint": { "pressure": "damage" }"#,
+            "damage in \"damage\", but the law of joint has none",
+        ),
         (COHESIVE, r#""joint": { "pressure": 1 }, "j*": { "pressure": 2 }"#, "both give joint a pressure"),
-        (ELASTIC, r#""b.top": { "pressure": "opening" }"#, "only the pressure in an interface knows its opening and damage"),
+        (
+            ELASTIC,
+            r#""b.top": { "pressure": "opening" }"#,
+            "only the pressure in an interface knows its opening and damage",
+        ),
         (ELASTIC, r#""joint": { "pressure": "1/opening" }"#, "\"1/opening\" is inf at x = "),
-        (ELASTIC, r#""b.top": { "pressure": { "flow": { "aperture": 1, "viscosity": 1 } } }"#, "water flows along interfaces"),
-        (ELASTIC, r#""joint": { "pressure": { "flow": { "aperture": 0, "viscosity": 1 } } }"#, "pressure.flow.aperture: 0 is no aperture"),
-        (ELASTIC, r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosty": 1 } } }"#, "unknown key \"viscosty\""),
-        (ELASTIC, r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosity": 1 } } }"#, "no other interface with flow meets the end at s = 0"),
+        (
+            ELASTIC,
+            r#""b.top": { "pressure": { "flow": { "aperture": 1, "viscosity": 1 } } }"#,
+            "water flows along interfaces",
+        ),
+        (
+            ELASTIC,
+            r#""joint": { "pressure": { "flow": { "aperture": 0, "viscosity": 1 } } }"#,
+            "pressure.flow.aperture: 0 is no aperture",
+        ),
+        (
+            ELASTIC,
+            r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosty": 1 } } }"#,
+            "unknown key \"viscosty\"",
+        ),
+        (
+            ELASTIC,
+            r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosity": 1 } } }"#,
+            "no other interface with flow meets the end at s = 0",
+        ),
         (
             ELASTIC,
             r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosity": 1, "ends": ["wall", "wall"] } } }"#,
@@ -293,7 +336,8 @@ fn what_a_pressure_cannot_be_is_refused() {
     let flow = r#""joint": { "pressure": { "flow": { "aperture": 1, "viscosity": 1, "ends": [1, 2] } } }"#;
     let message = blocks(ELASTIC, &strategy("blocks"), &[step("s", 1, flow)]).unwrap_err().to_string();
     assert!(message.contains("solution.strategy: flow is solved with the jumps"), "{message}");
-    let path = step("s", 2, r#""joint": { "pressure": "load_factor" }"#).replace("\"increments\"", "\"control\": \"auto\", \"increments\"");
+    let path = step("s", 2, r#""joint": { "pressure": "load_factor" }"#)
+        .replace("\"increments\"", "\"control\": \"auto\", \"increments\"");
     let message = blocks(COULOMB, "", &[path]).unwrap_err().to_string();
     assert!(message.contains("the path of equilibria cannot be followed"), "{message}");
 }

@@ -74,13 +74,22 @@ fn flow(show: &Show, problem: &Problem, width: usize) {
         if lines == told {
             continue;
         }
-        show.line(&format!("{:<width$} {:<30} {:<30} between, step \"{}\"", "flow along", "s = 0", "s = 1", step.name));
+        show.line(&format!(
+            "{:<width$} {:<30} {:<30} between, step \"{}\"",
+            "flow along", "s = 0", "s = 1", step.name
+        ));
         for along in &lines {
             let end = |end: usize| {
                 let [x, y, _] = along.ends[end];
                 format!("{} at ({x:.4}, {y:.4})", along.conditions[end])
             };
-            show.line(&format!("{:<width$} {:<30} {:<30} {}", along.interface, end(0), end(1), along.between));
+            show.line(&format!(
+                "{:<width$} {:<30} {:<30} {}",
+                along.interface,
+                end(0),
+                end(1),
+                along.between
+            ));
         }
         told = lines;
     }

@@ -6,8 +6,8 @@ use crate::shape::{GAUSS_2, GAUSS_3, LINE_NODES, LineRule, LineValues, MAX_NODES
 /// Lobatto points and weights, four of them, exact for what three Gauss points are.
 const LOBATTO_4: [[f64; 2]; 4] = [
     [-1.0, 1.0 / 6.0],
-    [-0.447_213_595_499_957_94, 5.0 / 6.0],
-    [0.447_213_595_499_957_94, 5.0 / 6.0],
+    [-0.447_213_595_499_957_9, 5.0 / 6.0],
+    [0.447_213_595_499_957_9, 5.0 / 6.0],
     [1.0, 1.0 / 6.0],
 ];
 /// An edge's forces are exact to this part of them; parts are halved at most so often.
@@ -198,7 +198,9 @@ mod tests {
         // t = max(0, h − ξ) on −1 to 1: ∫ ½ (1 ∓ ξ) t dξ by hand, d = h + 1 under water
         let x = [[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]];
         for h in [-0.97, -0.3, 0.123, 0.7, 0.98, 0.9999] {
-            let force = edge_field_force::<()>(&x, Shape::Line2, 1.0, |xi, _| Ok(([f64::max(0.0, h - xi), 0.0], 0.0)));
+            let force = edge_field_force::<()>(&x, Shape::Line2, 1.0, |xi, _| {
+                Ok(([f64::max(0.0, h - xi), 0.0], 0.0))
+            });
             let d: f64 = h + 1.0;
             let second = d.powi(3) / 12.0;
             for (force, exact) in force.unwrap().iter().zip([0.5 * d * d - second, second]) {

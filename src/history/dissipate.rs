@@ -112,7 +112,13 @@ pub(super) fn along(
     let mut amount = at.amount;
     let mut why = Unconverged { reason: "the path ends".into(), worst: Vec::new(), iterations: 0 };
     for _ in 0..SMALLEST {
-        let path = PathSearch { step: start.step(), ramp, amount: Some(amount), ahead: amount / at.spent, last: at.change };
+        let path = PathSearch {
+            step: start.step(),
+            ramp,
+            amount: Some(amount),
+            ahead: amount / at.spent,
+            last: at.change,
+        };
         match follow(analysis, start, &path, at, part)? {
             Followed::Taken { iterations, growth } => {
                 at.amount = amount * growth;

@@ -41,8 +41,7 @@ pub(super) fn prepare(
 ) -> bool {
     let problem = analysis.problem;
     let known = active(problem).len() == problem.model.interfaces.len() || analysis.engine.finds_all_jumps();
-    let unstored =
-        problem.fields != Fields::Every
+    let unstored = problem.fields != Fields::Every
         && known
         && !follows
         && !step.warms()

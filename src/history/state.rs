@@ -16,11 +16,10 @@ use super::energy::{across, carried, work_to};
 use super::held::{HeldForces, presence_at_first};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use super::prestress::{holding, stresses, warmed};
-use super::water::{water_at, water_work};
 use crate::assembly::InterfaceOperator;
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
-use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem, WaterFields};
+use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
 use crate::solver::NodalSolution;
 
 /// The model after an increment.
@@ -52,7 +51,7 @@ pub struct ModelState {
     /// Measures of a step without displacements; none outside such a step.
     ledger: Option<Ledger>,
     /// Interfaces whose jumps were found as unknowns, not taken from displacements.
-    found: Vec<bool>,
+    pub(super) found: Vec<bool>,
     /// Step and load factor.
     pub(super) at: (usize, f64),
     /// Forces of parts that have gone.
@@ -164,24 +163,6 @@ impl ModelState {
         self.residuals = residuals;
     }
 
-    /// Pressures after a part, and their work in it.
-    fn take_water(&mut self, problem: &Problem, (water, jumps): &(WaterFields, Vec<Vec<Local>>)) {
-        if problem.steps.iter().all(|step| step.water.is_none()) {
-            return;
-        }
-        for (k, interface) in problem.model.interfaces.iter().enumerate() {
-            if !self.found[k] && self.is_complete() {
-                let jumps = interface.jumps(&self.snapshot.u);
-                self.snapshot.jumps[k] = jumps.chunks_exact(problem.model.components).map(local).collect();
-            }
-        }
-        self.snapshot.water = water_at(problem, &self.snapshot, self.at);
-        let now = (&self.snapshot.water, &self.snapshot.jumps[..]);
-        let [all, coupled] = water_work(problem, (water, jumps), now);
-        self.water_work += all;
-        self.work += coupled;
-    }
-
     /// Counts as an equilibrium of the laws alone, which leave this residual.
     pub(super) fn stands(&mut self, residual: f64) {
         self.residual = residual;
@@ -256,21 +237,6 @@ impl ModelState {
     /// The largest energy so far [force × length].
     pub(super) fn largest_energy(&self) -> f64 {
         self.largest.max(self.work.abs()).max(self.dissipated)
-    }
-
-    /// External forces by dof, pressures of all interfaces among them; none where fields are not stored [force].
-    pub fn loads(&self, problem: &Problem) -> Vec<f64> {
-        let mut force = self.force.clone();
-        let coupled = problem.interfaces.iter().map(|bound| bound.coupled_pressure);
-        let interfaces = problem.model.interfaces.iter().zip(coupled).zip(&self.snapshot.water.pressures);
-        let stored = !force.is_empty();
-        for ((operator, _), pressures) in interfaces.filter(|((_, coupled), _)| *coupled && stored) {
-            let mut tractions = vec![0.0; operator.coupling.points.len() * problem.model.components];
-            let normal = tractions.iter_mut().step_by(problem.model.components);
-            normal.zip(pressures).for_each(|(traction, pressure)| *traction = *pressure);
-            operator.add_force(&tractions, &mut force);
-        }
-        force
     }
 
     /// Work of the viscosity of laws so far, part of what is dissipated [force × length].

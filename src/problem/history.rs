@@ -10,7 +10,7 @@ use super::pressures::{self, Stated};
 use super::prestress::AllInForce;
 use super::step::BoundStep;
 use super::supports::{Supports, dofs, hold_and_release, named, prescribed, support};
-use super::water::WaterInForce;
+use super::water_in_force::WaterInForce;
 use super::{BoundInterface, in_situ};
 use crate::assembly::Model;
 use crate::error::{Result, Warning};
@@ -166,9 +166,8 @@ pub(super) fn given(
     (index, step): (&str, &Step),
     stated: &[Option<Stated>],
 ) -> Result<Loads> {
-    let mut given: Loads = pressures::loads(model, interfaces, stated)
-        .map(|(name, load)| (("load", name), load))
-        .collect();
+    let mut given: Loads =
+        pressures::loads(model, interfaces, stated).map(|(name, load)| (("load", name), load)).collect();
     for (group, load) in step.load.iter().filter(|(key, _)| !scene.names_interfaces(key)) {
         let bound = BoundLoad::on_group(scene, model, index, group, load)?;
         given.insert(("load", group.clone()), Arc::new(bound));

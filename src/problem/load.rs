@@ -147,7 +147,8 @@ impl BoundLoad {
             _ => None,
         };
         let at = |place: [f64; 2], s: f64| -> Result<[f64; 2]> {
-            let place = FormulaPlace { x: place[0], y: place[1], z: 0.0, s, load_factor, ..FormulaPlace::default() };
+            let place =
+                FormulaPlace { x: place[0], y: place[1], z: 0.0, s, load_factor, ..FormulaPlace::default() };
             Ok([x.at(&place)?, y.at(&place)?])
         };
         let mut scatter = |node: usize, nodal: [f64; 2]| {

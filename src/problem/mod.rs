@@ -5,6 +5,7 @@ mod between;
 mod cover;
 mod curve;
 mod flow;
+mod flow_lines;
 mod gap;
 mod ground;
 mod groups;
@@ -30,6 +31,7 @@ mod unjoined;
 mod unused;
 mod warnings;
 mod water;
+mod water_in_force;
 mod within;
 
 pub use curve::joinings;

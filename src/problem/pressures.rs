@@ -73,7 +73,8 @@ pub(super) fn stated<'a>(
             let stated = match pressure {
                 Pressure::Imposed(value) => {
                     let path = [&path[..], &["pressure"]].concat();
-                    let knows = interfaces[k].laws.all().iter().all(|law| law.damage(&State::default()).is_some());
+                    let knows =
+                        interfaces[k].laws.all().iter().all(|law| law.damage(&State::default()).is_some());
                     if value.uses(Variable::Damage) && !knows {
                         let what = format!("damage in {value}, but the law of {name} has none");
                         let help = "\"cracking\" and \"cohesive\" have one; write it with opening";

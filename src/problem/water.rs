@@ -11,14 +11,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::flow::{BoundFlow, StatedFlow};
+use super::flow::BoundFlow;
 use super::point_laws::place;
-use super::pressures::Stated;
 use super::quantity::Quantity;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
 use crate::law::{Local, N};
-use crate::scene::{FormulaPlace, Scene, Variable};
+use crate::scene::{FormulaPlace, Variable};
 use crate::water::Slopes;
 
 /// An imposed pressure in force.
@@ -119,10 +118,7 @@ pub struct FlowSlopes {
 
 impl StepWater {
     /// None without any water.
-    fn new(
-        sources: Vec<[Source; 2]>,
-        flows: [Option<Arc<BoundFlow>>; 2],
-    ) -> Option<StepWater> {
+    pub(super) fn new(sources: Vec<[Source; 2]>, flows: [Option<Arc<BoundFlow>>; 2]) -> Option<StepWater> {
         let dry = |source: &Source| matches!(source, Source::Dry);
         let none = sources.iter().flatten().all(dry);
         (!none).then_some(StepWater { sources, flows })
@@ -131,7 +127,8 @@ impl StepWater {
     /// True if a formula in load_factor gives a pressure.
     pub(super) fn follows_load_factor(&self) -> bool {
         let imposed = |source: &Source| matches!(source, Source::Imposed(own) if own.follows);
-        self.sources.iter().any(|own| imposed(&own[1])) || self.flows[1].as_ref().is_some_and(|flow| flow.follows)
+        self.sources.iter().any(|own| imposed(&own[1]))
+            || self.flows[1].as_ref().is_some_and(|flow| flow.follows)
     }
 
     /// True if there is water in an interface before or in the step.
@@ -206,7 +203,9 @@ impl StepWater {
                 continue;
             }
             let before = if end == 1 && self.goes_on() { self.flows[0].as_deref() } else { None };
-            let given = flow.given(before, if end == 1 { load_factor } else { 1.0 }).map_err(|why| why.to_string())?;
+            let given = flow
+                .given(before, if end == 1 { load_factor } else { 1.0 })
+                .map_err(|why| why.to_string())?;
             flow.add(model, &given, &weight, point, with_slopes, &mut answer);
         }
         Ok(answer)
@@ -256,68 +255,5 @@ impl Imposed {
             slope += point.damage_gradient * self.quantity.derivative(&place, Variable::Damage);
         }
         Ok((pressure, slope))
-    }
-}
-
-/// Water in force from step to step.
-pub(super) struct WaterInForce<'a> {
-    sources: Vec<Source>,
-    flows: Vec<StatedFlow<'a>>,
-    /// Flow of the step before.
-    flow: Option<Arc<BoundFlow>>,
-}
-
-impl<'a> WaterInForce<'a> {
-    pub(super) fn new(model: &Model) -> WaterInForce<'a> {
-        WaterInForce { sources: vec![Source::Dry; model.interfaces.len()], flows: Vec::new(), flow: None }
-    }
-
-    /// Water of a step that states pressures; none where there is none before or in it. `there`: whether parts stay through the
-    /// start of the step, and are there in it.
-    pub(super) fn step(
-        &mut self,
-        scene: &Scene,
-        model: &Model,
-        number: usize,
-        stated: &[Option<Stated<'a>>],
-        [stay, are_there]: [&dyn Fn(&[usize]) -> bool; 2],
-    ) -> Result<Option<StepWater>> {
-        let before = self.sources.clone();
-        for (k, stated) in stated.iter().enumerate() {
-            let Some(stated) = stated else { continue };
-            self.flows.retain(|flow| flow.interface != k);
-            self.sources[k] = match stated {
-                Stated::Imposed(quantity) => {
-                    let follows = quantity.uses(Variable::LoadFactor);
-                    Source::Imposed(Arc::new(Imposed { quantity: quantity.clone(), follows }))
-                }
-                Stated::Flow(flow, key) => {
-                    self.flows.push(StatedFlow { interface: k, flow, step: number, key: key.clone() });
-                    Source::Flow
-                }
-            };
-        }
-        self.flows.sort_by_key(|flow| flow.interface);
-        let parts = |k: usize| &model.interfaces[k].subdomains[..];
-        let flows: Vec<StatedFlow> =
-            self.flows.iter().filter(|flow| are_there(parts(flow.interface))).cloned().collect();
-        let flow = match flows.is_empty() {
-            true => None,
-            false => Some(Arc::new(BoundFlow::new(scene, model, number, &flows)?)),
-        };
-        let present = |source: &Source, is: bool| if is { source.clone() } else { Source::Dry };
-        let both = |k: usize| [present(&before[k], stay(parts(k))), present(&self.sources[k], are_there(parts(k)))];
-        let sources = (0..before.len()).map(both).collect();
-        let water = StepWater::new(sources, [self.flow.take(), flow.clone()]);
-        // what goes on stays as it is at load factor 1
-        for source in &mut self.sources {
-            if let Source::Imposed(own) = source
-                && own.follows
-            {
-                *source = Source::Imposed(Arc::new(Imposed { quantity: own.quantity.clone(), follows: false }));
-            }
-        }
-        self.flow = flow;
-        Ok(water)
     }
 }

@@ -160,7 +160,10 @@ mod tests {
                 };
                 let differences = (at(1e-6) - at(-1e-6)) / 2e-6;
                 let exact = formula.derivative(&PLACE, by);
-                assert!((exact - differences).abs() < 1e-8 * exact.abs().max(1.0), "{text}: {exact}, {differences}");
+                assert!(
+                    (exact - differences).abs() < 1e-8 * exact.abs().max(1.0),
+                    "{text}: {exact}, {differences}"
+                );
             }
         }
     }

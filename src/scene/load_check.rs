@@ -2,7 +2,7 @@
 
 use super::named::check_group;
 use super::{Flow, FlowEnd, JOINED, Load, Pressure, Scene, Step, Strategy, Value, Variable, split_group};
-use crate::error::Result;
+use crate::error::{Result, name_help};
 
 impl Scene {
     /// True for a name of a load that can only be that of interfaces: one of them, or a pattern.
@@ -21,8 +21,14 @@ impl Scene {
                 self.check_water(&path, load)?;
                 continue;
             }
+            let (subdomain, group) = split_group(name);
+            if group.is_none() && !self.subdomains.contains_key(subdomain) {
+                let names = self.subdomains.keys().chain(self.interfaces.keys()).map(String::as_str);
+                let what = format!("no subdomain or interface \"{name}\"");
+                return Err(self.source.error_at(&path, what, name_help(name, names)));
+            }
             check_group(self, &path, name)?;
-            if split_group(name).1.is_none() {
+            if group.is_none() {
                 let help =
                     if matches!(load, Load::Force(_)) { "name a point of it" } else { "name a curve of it" };
                 return Err(self.source.error_at(&path, format!("\"{name}\" is a whole body"), help));
@@ -89,7 +95,11 @@ impl Scene {
             }
             Load::Traction(_) | Load::Force(_) => {
                 let what = format!("\"{}\" is an interface", path[path.len() - 1]);
-                Err(self.source.error_at(path, what, "give it a \"pressure\", or load a curve of a subdomain"))
+                Err(self.source.error_at(
+                    path,
+                    what,
+                    "give it a \"pressure\", or load a curve of a subdomain",
+                ))
             }
         }
     }
@@ -117,7 +127,11 @@ impl Scene {
             }
             if flow.drains[..i].iter().any(|before| before.at == drain.at) {
                 let what = format!("two drains at {}", drain.at);
-                return Err(self.source.error_at(&[&path[..], &["at"]].concat(), what, "leave one of them out"));
+                return Err(self.source.error_at(
+                    &[&path[..], &["at"]].concat(),
+                    what,
+                    "leave one of them out",
+                ));
             }
             self.check_place(&path, "pressure", [&drain.pressure])?;
         }

@@ -79,6 +79,8 @@ fn take_formulas(
     found: &mut Vec<(Vec<String>, Value)>,
 ) -> Result<(), String> {
     match text {
+        // the name of a law is none, also where it is that of a variable
+        Json::String(_) if keys.last().is_some_and(|key| key == "type") => {}
         Json::String(word) => match Expression::parse(word) {
             Ok(expression) => {
                 *text = Json::from(expression.constant().unwrap_or(1.0));

@@ -109,8 +109,7 @@ fn answers<L: Respond>(
         stiffness.push(d);
     }
     let pressures = laws.pressures(form.active(), &all_jumps, &mut memory, by_load_factor);
-    let pressures =
-        pressures.map_err(|reason| Unconverged { reason, worst: Vec::new(), iterations: 0 })?;
+    let pressures = pressures.map_err(|reason| Unconverged { reason, worst: Vec::new(), iterations: 0 })?;
     if let Some(pressures) = &pressures {
         let components = form.active().first().map_or(0, |&k| form.interfaces()[k].coupling.components);
         subtract(pressures, components, &mut tractions, &mut stiffness);

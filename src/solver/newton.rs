@@ -84,7 +84,8 @@ impl Newton {
         constraint: &Constraint,
         settings: NewtonSettings,
     ) -> Result<(Iterate<L::Memory>, f64), Unconverged> {
-        let now = evaluate_at(form, &laws.at(start.load_factor), &start.x, &load.at(start.load_factor), true)?;
+        let now =
+            evaluate_at(form, &laws.at(start.load_factor), &start.x, &load.at(start.load_factor), true)?;
         let settings = NewtonSettings { patience: usize::MAX, ..settings };
         self.search(form, laws, (start, now), &Aim::Path(load, constraint), settings)
     }
@@ -105,7 +106,8 @@ impl Newton {
             let missing = aim.missing(form, laws, &now);
             // a start that is extrapolated well is corrected once all the same: what is left is Newton's, not its own
             let stalled = iterations > 0 && residuals[iterations] > STALLED * residuals[iterations - 1];
-            let rounded = || self.rounding(form, &aim.laws(laws, load_factor), &x, &now, &aim.target(load_factor));
+            let rounded =
+                || self.rounding(form, &aim.laws(laws, load_factor), &x, &now, &aim.target(load_factor));
             let balanced = now.error <= settings.tolerance || stalled && now.error <= rounded();
             if iterations > 0 && balanced && missing.abs() <= MET {
                 let Evaluation { jumps, tractions, forces, memory, .. } = now;

@@ -108,7 +108,14 @@ fn on_interface(model: &Model, fields: &[Vec<Local>], of: &str, exact: &[Value; 
     let mut sums = [0.0; 2];
     for (point, field) in coupling.points.iter().zip(fields.get(k)?) {
         let [x, y, z] = point.position;
-        let place = FormulaPlace { x, y, z, s: point.s / coupling.midplane.length, load_factor: 1.0, ..FormulaPlace::default() };
+        let place = FormulaPlace {
+            x,
+            y,
+            z,
+            s: point.s / coupling.midplane.length,
+            load_factor: 1.0,
+            ..FormulaPlace::default()
+        };
         add(&mut sums, point.weight, [field[N], field[T]], exact, &place);
     }
     Some(sums)
@@ -132,7 +139,14 @@ fn displacement(model: &Model, u: &[f64], of: &str, exact: &[Value; 2]) -> Optio
             }
             let x: Vec<[f64; 2]> = nodes.iter().map(|&node| in_plane(mesh.points[node])).collect();
             let area = weight * determinant(&jacobian(&values, &x));
-            let place = FormulaPlace { x: place[0], y: place[1], z: 0.0, s: 0.0, load_factor: 1.0, ..FormulaPlace::default() };
+            let place = FormulaPlace {
+                x: place[0],
+                y: place[1],
+                z: 0.0,
+                s: 0.0,
+                load_factor: 1.0,
+                ..FormulaPlace::default()
+            };
             add(&mut sums, area, moved, exact, &place);
         }
     }

@@ -34,7 +34,11 @@ impl Polynomial {
             own[0] = 1.0;
             for (_, place) in places.iter().enumerate().filter(|(k, _)| *k != j) {
                 let scale = 1.0 / (places[j] - place);
-                *own = [-own[0] * place * scale, (own[0] - own[1] * place) * scale, (own[1] - own[2] * place) * scale];
+                *own = [
+                    -own[0] * place * scale,
+                    (own[0] - own[1] * place) * scale,
+                    (own[1] - own[2] * place) * scale,
+                ];
             }
         }
         let mut coefficients = [0.0; 3];

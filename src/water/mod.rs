@@ -11,6 +11,7 @@
 //! plates (cubic law), Witherspoon et al. 1980.
 
 mod aperture;
+mod branch;
 mod interval;
 mod network;
 

@@ -76,10 +76,7 @@ impl Plane {
         let yyy = 2.0 * y * both(&|e, r| e / (r * r));
         let yy = -xx;
         // local stresses (xx, yy, xy) for unit D along and D across
-        let local = [
-            [2.0 * xy + y * xyy, -y * xyy, yy + y * yyy],
-            [yy + y * yyy, yy - y * yyy, -y * xyy],
-        ];
+        let local = [[2.0 * xy + y * xyy, -y * xyy, yy + y * yyy], [yy + y * yyy, yy - y * yyy, -y * xyy]];
         let [ct, st] = target.along();
         let (cr, sr) = (c * ct + s * st, c * st - s * ct); // from the source's axes to the target's
         local.map(|[xx, yy, xy]| {

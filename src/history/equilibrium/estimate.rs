@@ -13,12 +13,12 @@
 use super::laws::{Laws, OldStates};
 use super::view::{View, target};
 use super::{Estimate, ON, Way, late};
-use crate::solver::PathPoint;
 use crate::history::converged::{Converged, PointResponse};
 use crate::history::loading::StepLoad;
 use crate::history::water::pressures_of;
 use crate::law::{self, Law, Local, N};
 use crate::output::Snapshot;
+use crate::solver::PathPoint;
 use crate::solver::{Affine, Form, ask, corrected};
 
 /// A change of the traction is elastic within this part of it, and of what rounding leaves of the jump.
@@ -98,7 +98,9 @@ fn over_the_middle<F: Form>(
         }
         None => None,
     };
-    let [halfway, corrected] = corrected(form, &laws, &PathPoint { x, load_factor: way.middle.load_factor }, &target, across).ok()?;
+    let [halfway, corrected] =
+        corrected(form, &laws, &PathPoint { x, load_factor: way.middle.load_factor }, &target, across)
+            .ok()?;
     // a point that changes its mode in the second half leads the correction astray
     let better = if corrected.residuals[0] < halfway.residuals[0] { &corrected } else { &halfway };
     let mut states = old.states.to_vec();
