@@ -51,7 +51,7 @@ def page(study, out):
             x, y, points = zip(*rows) if rows else ((), (), ())
             text = [f"point {p['point']}<br>{setting(p)}" for p in points]
             figure.add_scatter(x=x, y=y, mode="markers", name=name, text=text, hoverinfo="text+x+y")
-        failed = [p for p in study["points"] if p["status"] != "done" and of_x(p)]
+        failed = [p for p in study["points"] if p["status"] not in ("done", "limit") and of_x(p)]
         if failed:
             text = [f"point {p['point']}<br>{setting(p)}<br>{p['message']}" for p in failed]
             figure.add_scatter(

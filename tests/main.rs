@@ -61,6 +61,7 @@ mod ordering;
 mod own_strains;
 mod parts;
 mod patch;
+mod patterns;
 mod presets;
 mod pressurised;
 mod ramp;

@@ -138,6 +138,7 @@ fn a_pressure_that_follows_the_opening_has_its_own_stiffness() {
             );
             let problem = blocks(law, &strategy(name), &[step("pull", 3, &formula)]).unwrap();
             let (states, totals) = solve(&problem);
+            let before = totals.clone();
             // the load and the pressure ramp alike: K r = λ (P + p₁ r/w)
             for (state, part) in states.iter().zip([1.0 / 3.0, 2.0 / 3.0, 1.0]) {
                 let exact = part * pull / (K - part * p1 / w);
@@ -148,6 +149,11 @@ fn a_pressure_that_follows_the_opening_has_its_own_stiffness() {
                 }
             }
             assert!(totals.energy_balance < 2e-4, "{totals:?}");
+            // kept while the load grows it is linear: no part is divided
+            let more = format!(r#""b.top": {{ "pressure": -{} }}"#, 1.1 * pull);
+            let steps = [step("pull", 3, &formula), step("more", 1, &more)];
+            let (states, totals) = solve(&blocks(law, &strategy(name), &steps).unwrap());
+            assert!(states.len() == 4 && totals.parts - before.parts == 1, "{totals:?}");
             // a parabola
             let c = 1.5e7;
             let formula =
@@ -231,6 +237,24 @@ fn a_pressure_follows_the_damage_of_the_law() {
             }
             assert!(totals.energy_balance < 1e-3, "{control} {totals:?}");
         }
+    }
+}
+
+/// Claim: the slope of the damage is in the tangent too.
+#[test]
+fn a_pressure_of_the_damage_converges_quadratically() {
+    for law in [COHESIVE, CRACKING] {
+        let steps = [
+            r#"{ "name": "pull", "increments": 1, "fix": { "a.bottom": ["x", "y"], "a": ["x"], "b": ["x"] },
+                "displace": { "b.top": { "y": 1e-3 } }, "load": { "joint": { "pressure": "0.9*damage" } } }"#
+                .to_string(),
+        ];
+        let problem = blocks(law, r#""path_tolerance": 1"#, &steps).unwrap();
+        let (states, totals) = solve(&problem);
+        converges_quadratically(&states[0], &totals);
+        let state = &states[0];
+        let damage = problem.interfaces[0].laws.at(0).damage(&state.snapshot.states[0][0]).unwrap();
+        assert!((0.3..0.95).contains(&damage), "{damage}");
     }
 }
 

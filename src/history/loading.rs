@@ -180,8 +180,15 @@ impl<'a> Start<'a> {
             LinearMeasure::Displacement(terms(&|i| self.initial[i])),
         ];
         for (_, probe) in &self.problem.probes {
-            if let BoundProbe::Displacement(weights) = probe {
-                measures.push(LinearMeasure::Displacement(weights.clone()));
+            match probe {
+                BoundProbe::Displacement(weights) => {
+                    measures.push(LinearMeasure::Displacement(weights.clone()));
+                }
+                BoundProbe::Reaction(dofs) => {
+                    let terms = dofs.iter().map(|&dof| (dof, 1.0));
+                    measures.push(LinearMeasure::Reaction(terms.collect()));
+                }
+                _ => {}
             }
         }
         for reaction in &self.problem.reactions {
@@ -202,7 +209,7 @@ pub(super) struct Ledger {
     pub(super) supports: Ends,
     /// Forces of the initial tractions · u.
     pub(super) initial: f64,
-    /// Displacement probes, then reactions.
+    /// Probes of displacements and reactions, then reactions.
     pub(super) columns: Vec<f64>,
 }
 

@@ -40,6 +40,7 @@ mod totals;
 mod trial;
 mod viscous;
 mod water;
+mod water_loads;
 
 pub use balance::{Resultant, resultant};
 pub use beyond::Beyond;

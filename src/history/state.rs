@@ -16,10 +16,11 @@ use super::energy::{across, carried, work_to};
 use super::held::{HeldForces, presence_at_first};
 use super::loading::{Ledger, LoadForces, StepLoad};
 use super::prestress::{holding, stresses, warmed};
+use super::water::{water_at, water_work};
 use crate::assembly::InterfaceOperator;
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
-use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem};
+use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem, WaterFields};
 use crate::solver::NodalSolution;
 
 /// The model after an increment.
@@ -128,9 +129,14 @@ impl ModelState {
             _ => f64::NAN, // an engine that keeps no ledger recovers every increment
         };
         if let Some(ledger) = &mut ledger {
-            let first = ledger.columns.len() - problem.reactions.len();
-            for (column, reaction) in ledger.columns[first..].iter_mut().zip(&problem.reactions) {
-                *column += load.left_of(&reaction.dofs);
+            let measured = problem.probes.iter().map(|(_, probe)| probe).filter(|probe| probe.is_measured());
+            let probed = measured.map(|probe| match probe {
+                BoundProbe::Reaction(dofs) => Some(dofs),
+                _ => None,
+            });
+            let all = probed.chain(problem.reactions.iter().map(|reaction| Some(&reaction.dofs)));
+            for (column, dofs) in ledger.columns.iter_mut().zip(all) {
+                *column += dofs.map_or(0.0, |dofs| load.left_of(dofs));
             }
         }
         self.ledger = ledger;
@@ -161,6 +167,24 @@ impl ModelState {
         self.take_water(problem, &before);
         self.residual = residuals[residuals.len() - 1];
         self.residuals = residuals;
+    }
+
+    /// Pressures after a part, and their work in it.
+    fn take_water(&mut self, problem: &Problem, (water, jumps): &(WaterFields, Vec<Vec<Local>>)) {
+        if problem.steps.iter().all(|step| step.water.is_none()) {
+            return;
+        }
+        for (k, interface) in problem.model.interfaces.iter().enumerate() {
+            if !self.found[k] && self.is_complete() {
+                let jumps = interface.jumps(&self.snapshot.u);
+                self.snapshot.jumps[k] = jumps.chunks_exact(problem.model.components).map(local).collect();
+            }
+        }
+        self.snapshot.water = water_at(problem, &self.snapshot, self.at);
+        let now = (&self.snapshot.water, &self.snapshot.jumps[..]);
+        let [all, coupled] = water_work(problem, (water, jumps), now);
+        self.water_work += all;
+        self.work += coupled;
     }
 
     /// Counts as an equilibrium of the laws alone, which leave this residual.
@@ -262,6 +286,7 @@ impl ModelState {
     pub fn probes(&self, problem: &Problem) -> Vec<f64> {
         let input = ProbeInput {
             u: &self.snapshot.u,
+            reactions: &self.reactions,
             jumps: &self.snapshot.jumps,
             tractions: &self.snapshot.tractions,
             interfaces: &problem.interfaces,
@@ -272,14 +297,16 @@ impl ModelState {
             viscous: self.viscous_work(problem),
             water: &self.snapshot.water,
             water_work: self.water_work,
+            load_factor: self.at.1,
             work: self.work,
         };
         let mut columns =
             self.ledger.iter().filter(|_| !self.is_complete()).flat_map(|ledger| &ledger.columns).copied();
         let mut values = Vec::with_capacity(problem.probes.len() + problem.reactions.len());
         for (_, probe) in &problem.probes {
-            let prepared = if let BoundProbe::Displacement(_) = probe { columns.next() } else { None };
-            values.push(prepared.unwrap_or_else(|| probe.value(&problem.model, &input)));
+            let prepared = if probe.is_measured() { columns.next() } else { None };
+            let value = prepared.unwrap_or_else(|| probe.value(&problem.model, &input, &values));
+            values.push(value);
         }
         for reaction in &problem.reactions {
             let sum = || reaction.dofs.iter().map(|&dof| self.reactions[dof]).sum();

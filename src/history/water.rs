@@ -4,47 +4,11 @@
 //! work.water = Σ h w ½ (p₀ + p₁) Δr_n      over the accepted parts of all increments
 //! ```
 
-use super::state::ModelState;
 use crate::assembly::InterfaceOperator;
 use crate::coupling::LawPoint;
-use crate::law::{Local, N, local};
+use crate::law::{Local, N};
 use crate::output::Snapshot;
 use crate::problem::{Problem, StepWater, WaterFields, WaterPoint};
-
-impl ModelState {
-    /// External forces by dof, pressures of all interfaces among them; none where fields are not stored [force].
-    pub fn loads(&self, problem: &Problem) -> Vec<f64> {
-        let mut force = self.force.clone();
-        let coupled = problem.interfaces.iter().map(|bound| bound.coupled_pressure);
-        let interfaces = problem.model.interfaces.iter().zip(coupled).zip(&self.snapshot.water.pressures);
-        let stored = !force.is_empty();
-        for ((operator, _), pressures) in interfaces.filter(|((_, coupled), _)| *coupled && stored) {
-            let mut tractions = vec![0.0; operator.coupling.points.len() * problem.model.components];
-            let normal = tractions.iter_mut().step_by(problem.model.components);
-            normal.zip(pressures).for_each(|(traction, pressure)| *traction = *pressure);
-            operator.add_force(&tractions, &mut force);
-        }
-        force
-    }
-
-    /// Pressures after a part, and their work in it.
-    pub(super) fn take_water(&mut self, problem: &Problem, (water, jumps): &(WaterFields, Vec<Vec<Local>>)) {
-        if problem.steps.iter().all(|step| step.water.is_none()) {
-            return;
-        }
-        for (k, interface) in problem.model.interfaces.iter().enumerate() {
-            if !self.found[k] && self.is_complete() {
-                let jumps = interface.jumps(&self.snapshot.u);
-                self.snapshot.jumps[k] = jumps.chunks_exact(problem.model.components).map(local).collect();
-            }
-        }
-        self.snapshot.water = water_at(problem, &self.snapshot, self.at);
-        let now = (&self.snapshot.water, &self.snapshot.jumps[..]);
-        let [all, coupled] = water_work(problem, (water, jumps), now);
-        self.water_work += all;
-        self.work += coupled;
-    }
-}
 
 /// Water at a load factor of a step for the jumps and states of a snapshot.
 pub(super) fn pressures_of(

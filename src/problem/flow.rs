@@ -1,13 +1,13 @@
 //! Flow along interfaces, bound: which ends meet, which pressures are given, and the network that this makes.
 
-use super::flow_lines::{LineEnd, Nodes, SAME, StatedFlow, line_ends, meet, position};
+use super::flow_lines::{FlowNodes, LineEnd, SAME, StatedFlow, line_ends, meet, position};
 use super::quantity::Quantity;
-use super::water::{FlowAlong, FlowSlopes, WaterAnswer, WaterPoint};
+use super::water_answer::{FlowAlong, FlowSlopes, WaterAnswer, WaterPoint};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::law::N;
 use crate::scene::{Drain, FlowEnd, FormulaPlace, Scene, Value, Variable};
-use crate::water::{FlowLine, FlowNode, Network, Slopes, Station};
+use crate::water::{FlowLine, FlowNode, JumpSlopes, Network, Station};
 
 /// A given pressure.
 #[derive(Debug, Clone)]
@@ -36,7 +36,7 @@ impl BoundFlow {
         for own in stated {
             lines.push(own.line(scene, &model.interfaces[own.interface])?);
         }
-        let mut nodes = Nodes::default();
+        let mut nodes = FlowNodes::default();
         let mut boundaries = Vec::new();
         let mut given = |own: &StatedFlow, key: &[&str], value: &Value, s: f64, place: [f64; 3]| {
             let number = own.step.to_string();
@@ -55,7 +55,7 @@ impl BoundFlow {
             let length = model.interfaces[own.interface].coupling.midplane.length;
             let mut drains: Vec<(usize, &Drain)> = own.flow.drains.iter().enumerate().collect();
             drains.sort_by(|a, b| a.1.at.total_cmp(&b.1.at));
-            let end = |end: usize, nodes: &mut Nodes, given: &mut dyn FnMut(&Value) -> usize| {
+            let end = |end: usize, nodes: &mut FlowNodes, given: &mut dyn FnMut(&Value) -> usize| {
                 let pressure = match &own.flow.ends[end] {
                     Some(FlowEnd::Pressure(value)) => Some(given(value)),
                     _ => None,
@@ -190,12 +190,12 @@ impl BoundFlow {
                 }
             }
         }
-        if let Some(Slopes { mut matrix }) = flowing.slopes {
+        if let Some(JumpSlopes { mut matrix }) = flowing.slopes {
             for (i, (.., weight)) in rows.iter().enumerate().filter(|(_, row)| row.2 != 1.0) {
                 matrix.row_mut(i).iter_mut().for_each(|slope| *slope *= *weight);
             }
             let points = rows.into_iter().map(|(k, p, _)| (k, p)).collect();
-            answer.flow_slopes.push(FlowSlopes { points, slopes: Slopes { matrix } });
+            answer.flow_slopes.push(FlowSlopes { points, slopes: JumpSlopes { matrix } });
         }
     }
 }

@@ -27,14 +27,14 @@ pub(super) struct LineEnd {
     beside: f64,
 }
 
-/// Nodes that are one, and what is given at them.
+/// FlowNodes that are one, and what is given at them.
 #[derive(Default)]
-pub(super) struct Nodes {
+pub(super) struct FlowNodes {
     parent: Vec<usize>,
     pub(super) given: Vec<Option<usize>>,
 }
 
-impl Nodes {
+impl FlowNodes {
     pub(super) fn add(&mut self, given: Option<usize>) -> usize {
         self.parent.push(self.parent.len());
         self.given.push(given);
@@ -141,7 +141,7 @@ pub(super) fn meet(
     lines: &mut [FlowLine],
     ends: &[[LineEnd; 2]],
     (l, end): (usize, usize),
-    nodes: &mut Nodes,
+    nodes: &mut FlowNodes,
 ) -> bool {
     let own = &ends[l][end];
     let node = |lines: &[FlowLine], l: usize, end: usize| {

@@ -1,10 +1,17 @@
 //! Names to groups, with an error that lists what there is.
 
+use std::collections::HashSet;
+
+use wildmatch::WildMatch;
+
 use crate::assembly::Model;
 use crate::error::{Error, Result, name_help};
 use crate::mesh::{Facet, Group};
-use crate::scene::{Scene, Subdomain, split_group};
+use crate::scene::{Scene, Subdomain, is_pattern, split_group};
 use crate::shape::LINE_NODES;
+
+/// Groups that a refusal names at most.
+const SHOWN: usize = 12;
 
 /// A group of a body, or the whole body; one that is no use, or the name of several, is refused.
 pub(super) fn find<'a>(
@@ -119,38 +126,105 @@ pub(super) fn points<'a>(
     }
 }
 
-/// Model nodes of a group or body, ascending, each once.
-pub(super) fn nodes(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<usize>> {
-    let (subdomain, group) = find(scene, model, path, name)?;
-    let subdomain = &model.subdomains[subdomain];
-    let nodes = match group {
-        Some(group) => group.points(&subdomain.mesh),
-        None => (0..subdomain.mesh.points.len()).collect(),
-    };
-    Ok(nodes.into_iter().map(|node| subdomain.first_node + node).collect())
+/// The groups and bodies that a name or a pattern stands for, of which there must be one; of a `kind` if one is asked for.
+pub(super) fn matching(
+    scene: &Scene,
+    model: &Model,
+    path: &[&str],
+    name: &str,
+    kind: Option<&str>,
+) -> Result<Vec<String>> {
+    if !is_pattern(name) {
+        return Ok(vec![name.into()]);
+    }
+    let (subdomain, group) = split_group(name);
+    let matcher = WildMatch::new(subdomain);
+    let bodies = model.subdomains.iter().filter(|body| matcher.matches(&body.name));
+    let Some(group) = group else { return Ok(bodies.map(|body| body.name.clone()).collect()) };
+    let fits = |of: &Group| kind.is_none_or(|kind| of.each().iter().any(|one| one.kind() == kind));
+    let all: Vec<(String, &String)> = bodies
+        .flat_map(|body| {
+            let groups = body.mesh.groups.iter().filter(|(_, of)| fits(of));
+            groups.map(|(group, _)| (format!("{}.{group}", body.name), group))
+        })
+        .collect();
+    let matcher = WildMatch::new(group);
+    let found: Vec<String> =
+        all.iter().filter(|(_, group)| matcher.matches(group)).map(|(name, _)| name.clone()).collect();
+    if found.is_empty() {
+        let what = format!("no {} is called like \"{name}\"", kind.unwrap_or("group"));
+        let shown = all.iter().take(SHOWN).map(|(name, _)| name.as_str());
+        let more = if all.len() > SHOWN { ", …" } else { "" };
+        return Err(scene.source.error_at(path, what, format!("{}{more}", name_help(name, shown))));
+    }
+    Ok(found)
 }
 
-/// Weights of the model nodes in the mean over a group: by length, by area, or each the same for points.
+/// Model nodes of the groups and bodies of a name or pattern, ascending, each once.
+pub(super) fn nodes(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<usize>> {
+    let mut all = Vec::new();
+    for name in matching(scene, model, path, name, None)? {
+        let (subdomain, group) = find(scene, model, path, &name)?;
+        let subdomain = &model.subdomains[subdomain];
+        let nodes = match group {
+            Some(group) => group.points(&subdomain.mesh),
+            None => (0..subdomain.mesh.points.len()).collect(),
+        };
+        all.extend(nodes.into_iter().map(|node| subdomain.first_node + node));
+    }
+    all.sort_unstable();
+    all.dedup();
+    Ok(all)
+}
+
+/// Weights of the model nodes in the mean over a group, or over the union of those of a pattern: by length, by area, or each the
+/// same for points.
 pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> Result<Vec<(usize, f64)>> {
     use crate::continuum::{cell_coordinates, cell_weights, edge_weights};
-    let (index, group) = find(scene, model, path, name)?;
-    let subdomain = &model.subdomains[index];
-    let mesh = &subdomain.mesh;
     let mut weights: Vec<(usize, f64)> = Vec::new();
-    let mut add_cell = |c: usize| {
-        let of_cell = cell_weights(mesh.cells.shapes[c], &cell_coordinates(mesh, c));
-        weights.extend(mesh.cells.nodes(c).iter().copied().zip(of_cell));
-    };
-    match group {
-        None => (0..mesh.cells.len()).for_each(&mut add_cell),
-        Some(Group::Cells(cells)) => cells.iter().copied().for_each(&mut add_cell),
-        Some(Group::Namesakes(_) | Group::Unusable { .. }) => {} // refused above
-        Some(Group::Points(points)) => weights.extend(points.iter().map(|&point| (point, 1.0))),
-        Some(Group::Edges(edges)) => {
-            for edge in edges {
-                let of_edge = edge_weights(&edge_coordinates(&mesh.points, edge), edge.shape);
-                weights.extend(edge.nodes().iter().copied().zip(of_edge));
+    let (mut seen, mut kind) = (HashSet::new(), None);
+    for own in matching(scene, model, path, name, None)? {
+        let (index, group) = find(scene, model, path, &own)?;
+        let subdomain = &model.subdomains[index];
+        let mesh = &subdomain.mesh;
+        let this = group.map_or("body", Group::kind);
+        if *kind.get_or_insert(this) != this {
+            let what = format!("\"{name}\" fits groups of several kinds");
+            return Err(scene.source.error_at(
+                path,
+                what,
+                "a mean is over points, curves, surfaces or bodies alone",
+            ));
+        }
+        let node = |node: usize| subdomain.first_node + node;
+        let mut new = |nodes: &[usize]| {
+            let mut nodes: Vec<usize> = nodes.iter().map(|&place| node(place)).collect();
+            nodes.sort_unstable();
+            seen.insert(nodes)
+        };
+        let mut add = |nodes: &[usize], own: &[f64]| {
+            weights.extend(nodes.iter().map(|&place| node(place)).zip(own.iter().copied()));
+        };
+        let cells: Vec<usize> = match group {
+            None => (0..mesh.cells.len()).collect(),
+            Some(Group::Cells(cells)) => cells.clone(),
+            _ => Vec::new(),
+        };
+        for c in cells {
+            if new(mesh.cells.nodes(c)) {
+                add(mesh.cells.nodes(c), &cell_weights(mesh.cells.shapes[c], &cell_coordinates(mesh, c)));
             }
+        }
+        match group {
+            Some(Group::Points(points)) => {
+                points.iter().filter(|point| new(&[**point])).for_each(|&point| add(&[point], &[1.0]));
+            }
+            Some(Group::Edges(edges)) => {
+                for edge in edges.iter().filter(|edge| new(edge.nodes())) {
+                    add(edge.nodes(), &edge_weights(&edge_coordinates(&mesh.points, edge), edge.shape));
+                }
+            }
+            _ => {} // cells are counted, faults refused above
         }
     }
     let total: f64 = weights.iter().map(|(_, w)| w).sum();
@@ -162,7 +236,7 @@ pub(super) fn mean(scene: &Scene, model: &Model, path: &[&str], name: &str) -> R
         }
         same
     });
-    Ok(weights.into_iter().map(|(node, w)| (subdomain.first_node + node, w / total)).collect())
+    Ok(weights.into_iter().map(|(node, w)| (node, w / total)).collect())
 }
 
 /// Coordinates of start, end and mid-node of an edge, relative to its start; the end again where it has none.

@@ -1,5 +1,6 @@
 //! Step by step: supports, and loads in force.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use indexmap::IndexMap;
@@ -11,10 +12,10 @@ use super::prestress::AllInForce;
 use super::step::BoundStep;
 use super::supports::{Supports, dofs, hold_and_release, named, prescribed, support};
 use super::water_in_force::WaterInForce;
-use super::{BoundInterface, in_situ};
+use super::{BoundInterface, groups, in_situ};
 use crate::assembly::Model;
 use crate::error::{Result, Warning};
-use crate::scene::{Control, Direction, Scene, Step};
+use crate::scene::{Control, Direction, Load, Scene, Step};
 
 /// A group whose reaction is reported, in one direction.
 #[derive(Debug, Clone)]
@@ -168,9 +169,18 @@ pub(super) fn given(
 ) -> Result<Loads> {
     let mut given: Loads =
         pressures::loads(model, interfaces, stated).map(|(name, load)| (("load", name), load)).collect();
-    for (group, load) in step.load.iter().filter(|(key, _)| !scene.names_interfaces(key)) {
-        let bound = BoundLoad::on_group(scene, model, index, group, load)?;
-        given.insert(("load", group.clone()), Arc::new(bound));
+    let mut by_key: HashMap<String, &str> = HashMap::new();
+    for (key, load) in step.load.iter().filter(|(key, _)| !scene.names_interfaces(key)) {
+        let path = ["steps", index, "load", key];
+        let kind = if matches!(load, Load::Force(_)) { "point" } else { "curve" };
+        for group in groups::matching(scene, model, &path, key, Some(kind))? {
+            if let Some(other) = by_key.insert(group.clone(), key) {
+                let what = format!("\"{other}\" and \"{key}\" both load {group}");
+                return Err(scene.source.error_at(&path, what, "keep one of them"));
+            }
+            let bound = BoundLoad::on_group(scene, model, index, (key, &group), load)?;
+            given.insert(("load", group), Arc::new(bound));
+        }
     }
     for (b, subdomain) in model.subdomains.iter().enumerate() {
         if let Some(values) = step.body_force.get(&subdomain.name) {
@@ -178,9 +188,9 @@ pub(super) fn given(
             let bound = BoundLoad::on_subdomain(scene, &path, b, 1.0, values)?;
             given.insert(("body_force", subdomain.name.clone()), Arc::new(bound));
         }
-        if let Some(values) = &step.gravity {
-            let bound =
-                BoundLoad::on_subdomain(scene, &["steps", index, "gravity"], b, subdomain.density, values)?;
+        if let Some(values) = step.gravity.as_ref().and_then(|gravity| gravity.of(&subdomain.name)) {
+            let path = ["steps", index, "gravity"];
+            let bound = BoundLoad::on_subdomain(scene, &path, b, subdomain.density, values)?;
             given.insert(("gravity", subdomain.name.clone()), Arc::new(bound));
         }
     }

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::curve::PlannedInterface;
 use super::history::given;
+use super::pressure_names::depends_on_jumps;
 use super::{BoundInterface, pressures};
 use crate::assembly::Model;
 use crate::error::{Code, Result, Warning};
@@ -70,7 +71,7 @@ pub(super) fn keys(scene: &Scene, plans: &[PlannedInterface]) -> Vec<Warning> {
             tell(&path, why.into(), "leave it out: only \"cracking\" is integrated");
         }
     }
-    let coupled = |plan: &PlannedInterface| pressures::depends_on_jumps(scene, &plan.name);
+    let coupled = |plan: &PlannedInterface| depends_on_jumps(scene, &plan.name);
     if scene.interfaces.values().all(|stated| stated.law.kind().is_linear()) && !plans.iter().any(coupled) {
         let linear = "nothing slides or cracks: the scene is linear";
         for (i, step) in scene.steps.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::curve::PlannedInterface;
 use super::ground::StressAt;
-use super::pressures::depends_on_jumps;
+use super::pressure_names::depends_on_jumps;
 use super::{Gaps, InitialTraction, PointLaws, initial, stiffness};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;

@@ -35,15 +35,15 @@ enum LoadTarget {
 }
 
 impl BoundLoad {
-    /// Binds a load on a group.
+    /// Binds a load on a group, under its name or a pattern.
     pub(super) fn on_group(
         scene: &Scene,
         model: &Model,
         step: &str,
-        name: &str,
+        (key, name): (&str, &str),
         load: &Load,
     ) -> Result<BoundLoad> {
-        let path = ["steps", step, "load", name];
+        let path = ["steps", step, "load", key];
         let quantity = |kind: &str, index: Option<&str>, value: &Value| {
             let path: Vec<&str> = path.into_iter().chain([kind]).chain(index).collect();
             Quantity::new(scene, &path, value)

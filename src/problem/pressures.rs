@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use wildmatch::WildMatch;
-
 use super::load::BoundLoad;
+use super::pressure_names::names;
 use super::quantity::Quantity;
 use crate::assembly::Model;
 use crate::error::{Result, name_help};
@@ -20,26 +19,6 @@ pub(super) enum Stated<'a> {
     Imposed(Quantity),
     /// That of flow; the key of the load, for messages.
     Flow(&'a Flow, String),
-}
-
-/// True if a key of `load` names an interface.
-fn names(scene: &Scene, key: &str, interface: &str) -> bool {
-    scene.names_interfaces(key)
-        && (key == interface
-            || scene.entry(interface).is_some_and(|(entry, _)| entry == key)
-            || WildMatch::new(key).matches(interface))
-}
-
-/// True if the pressure in an interface depends on its jumps in some step.
-pub(super) fn depends_on_jumps(scene: &Scene, interface: &str) -> bool {
-    let own = scene.steps.iter().flat_map(|step| &step.load).filter(|(key, _)| names(scene, key, interface));
-    own.into_iter().any(|(_, load)| match load {
-        Load::Pressure(Pressure::Flow(_)) => true,
-        Load::Pressure(Pressure::Imposed(value)) => {
-            Variable::OF_INTERFACES.into_iter().any(|variable| value.uses(variable))
-        }
-        Load::Traction(_) | Load::Force(_) => false,
-    })
 }
 
 /// The pressures that a step states, interface by interface.

@@ -218,8 +218,22 @@ pub(super) fn support(
     Ok((moving.into_values().collect(), taken))
 }
 
-/// Model nodes of a group with their places; s along curves only if the quantity asks for it.
+/// Model nodes of a group, or of those of a pattern, with their places; s along curves only if the quantity asks for it.
 fn places(
+    scene: &Scene,
+    model: &Model,
+    path: &[&str],
+    name: &str,
+    quantity: &Quantity,
+) -> Result<Vec<(usize, FormulaPlace)>> {
+    let mut all = Vec::new();
+    for name in groups::matching(scene, model, path, name, None)? {
+        all.extend(places_of_one(scene, model, path, &name, quantity)?);
+    }
+    Ok(all)
+}
+
+fn places_of_one(
     scene: &Scene,
     model: &Model,
     path: &[&str],

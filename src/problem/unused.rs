@@ -3,19 +3,24 @@
 use std::collections::HashSet;
 
 use serde_json::Value;
+use wildmatch::WildMatch;
 
 use crate::assembly::Model;
 use crate::error::{Code, Warning};
-use crate::scene::Scene;
+use crate::scene::{Scene, is_pattern};
 
 /// One line for every subdomain with groups that nothing in the scene names. Surfaces do not count: every mesh has one.
 pub fn unused_groups(scene: &Scene, model: &Model) -> Vec<Warning> {
     let mut texts = HashSet::new();
     // whatever part of a scene names groups does so by its keys and texts
     collect(&serde_json::to_value(scene).unwrap_or_default(), &mut texts);
+    let patterns: Vec<WildMatch> =
+        texts.iter().filter(|text| is_pattern(text)).map(|text| WildMatch::new(text)).collect();
     let used = |name: &str| {
         let within = format!("{name}.");
-        texts.contains(name) || texts.iter().any(|text| text.starts_with(&within))
+        texts.contains(name)
+            || texts.iter().any(|text| text.starts_with(&within))
+            || patterns.iter().any(|pattern| pattern.matches(name) || pattern.matches(&within))
     };
     let lines = model.subdomains.iter().map(|subdomain| {
         let groups = subdomain.mesh.groups.iter().filter(|(_, group)| group.kind() != "surface");

@@ -9,16 +9,14 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use super::flow::BoundFlow;
 use super::point_laws::place;
 use super::quantity::Quantity;
+use super::water_answer::{EndRates, FlowAlong, WaterAnswer, WaterFields, WaterPoint};
 use crate::assembly::{InterfaceOperator, Model};
 use crate::error::Result;
 use crate::law::{Local, N};
 use crate::scene::{FormulaPlace, Variable};
-use crate::water::Slopes;
 
 /// An imposed pressure in force.
 #[derive(Debug, Clone)]
@@ -28,9 +26,9 @@ pub(super) struct Imposed {
     pub(super) follows: bool,
 }
 
-/// Source of the pressure in an interface.
+/// WaterSource of the pressure in an interface.
 #[derive(Debug, Clone)]
-pub(super) enum Source {
+pub(super) enum WaterSource {
     /// None.
     Dry,
     /// An imposed pressure.
@@ -43,113 +41,50 @@ pub(super) enum Source {
 #[derive(Debug, Clone)]
 pub struct StepWater {
     /// Sources of every interface, before and in the step.
-    sources: Vec<[Source; 2]>,
+    sources: Vec<[WaterSource; 2]>,
     /// Flows before and in the step.
     flows: [Option<Arc<BoundFlow>>; 2],
 }
 
-/// Jump and damage of a law point, and the slope of the damage by the jump.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct WaterPoint {
-    /// Jump (n, t, s) as the law counts it [length].
-    pub jump: Local,
-    /// Damage, 0 to 1.
-    pub damage: f64,
-    /// ∂damage/∂jump [1 / length].
-    pub damage_gradient: Local,
-}
-
-/// Water in the interfaces; empty where there is none, and for those without.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct WaterFields {
-    /// Pressure at the law points of every interface, positive [stress].
-    pub pressures: Vec<Vec<f64>>,
-    /// Rate of flow alike, for a unit thickness, positive along the interface [length² / time].
-    pub rates: Vec<Vec<f64>>,
-    /// Hydraulic aperture alike [length].
-    pub apertures: Vec<Vec<f64>>,
-    /// Rates at the ends of every interface, zero without flow.
-    pub ends: Vec<EndRates>,
-}
-
-/// Rates of flow of an interface for a unit thickness [length² / time].
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub struct EndRates {
-    /// In at s = 0.
-    pub start: f64,
-    /// Out at s = 1.
-    pub end: f64,
-    /// Out through its drains.
-    pub drains: f64,
-}
-
-/// Pressures in the interfaces, with their derivatives.
-#[derive(Debug, Clone, Default)]
-pub struct WaterAnswer {
-    /// Pressures and rates.
-    pub fields: WaterFields,
-    /// ∂p/∂jump at the same point of every interface, of those that depend on it.
-    pub slopes: Vec<Vec<Local>>,
-    /// ∂p/∂r_n at other points of flows.
-    pub flow_slopes: Vec<FlowSlopes>,
-}
-
-/// Flow along an interface in words.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlowAlong {
-    /// Name of the interface.
-    pub interface: String,
-    /// Places of its ends, s = 0 and s = 1.
-    pub ends: [[f64; 3]; 2],
-    /// Conditions there: "given", "joined" or "wall".
-    pub conditions: [&'static str; 2],
-    /// Nodes between its ends: drains, and joints that end on it.
-    pub between: usize,
-}
-
-/// Derivatives of the pressures of flow by the normal jumps.
-#[derive(Debug, Clone)]
-pub struct FlowSlopes {
-    /// Interface and law point of every row and column.
-    pub points: Vec<(usize, usize)>,
-    /// The derivatives [stress / length].
-    pub slopes: Slopes,
-}
-
 impl StepWater {
     /// None without any water.
-    pub(super) fn new(sources: Vec<[Source; 2]>, flows: [Option<Arc<BoundFlow>>; 2]) -> Option<StepWater> {
-        let dry = |source: &Source| matches!(source, Source::Dry);
+    pub(super) fn new(
+        sources: Vec<[WaterSource; 2]>,
+        flows: [Option<Arc<BoundFlow>>; 2],
+    ) -> Option<StepWater> {
+        let dry = |source: &WaterSource| matches!(source, WaterSource::Dry);
         let none = sources.iter().flatten().all(dry);
         (!none).then_some(StepWater { sources, flows })
     }
 
     /// True if a formula in load_factor gives a pressure.
     pub(super) fn follows_load_factor(&self) -> bool {
-        let imposed = |source: &Source| matches!(source, Source::Imposed(own) if own.follows);
+        let imposed = |source: &WaterSource| matches!(source, WaterSource::Imposed(own) if own.follows);
         self.sources.iter().any(|own| imposed(&own[1]))
             || self.flows[1].as_ref().is_some_and(|flow| flow.follows)
     }
 
     /// True if there is water in an interface before or in the step.
     pub fn is_in(&self, interface: usize) -> bool {
-        self.sources[interface].iter().any(|source| !matches!(source, Source::Dry))
+        self.sources[interface].iter().any(|source| !matches!(source, WaterSource::Dry))
     }
 
     /// True if water flows along an interface in the step.
     pub fn flows_in(&self, interface: usize) -> bool {
-        matches!(self.sources[interface][1], Source::Flow)
+        matches!(self.sources[interface][1], WaterSource::Flow)
     }
 
     /// Weights of what was before and of what is in the step.
     fn weights(&self, interface: usize, load_factor: f64) -> [f64; 2] {
         let at_once = match &self.sources[interface] {
-            [Source::Imposed(before), Source::Imposed(now)] => Arc::ptr_eq(before, now) || now.follows,
-            [Source::Dry, Source::Dry] => true,
-            [_, Source::Imposed(now)] => now.follows,
-            [before, Source::Flow] => {
+            [WaterSource::Imposed(before), WaterSource::Imposed(now)] => {
+                Arc::ptr_eq(before, now) || now.follows
+            }
+            [WaterSource::Dry, WaterSource::Dry] => true,
+            [_, WaterSource::Imposed(now)] => now.follows,
+            [before, WaterSource::Flow] => {
                 let own = self.flows[1].as_ref();
-                let same = matches!(before, Source::Flow) && self.goes_on();
+                let same = matches!(before, WaterSource::Flow) && self.goes_on();
                 own.is_some_and(|flow| flow.follows) || same
             }
             _ => false,
@@ -184,7 +119,7 @@ impl StepWater {
             answer.slopes[k] = vec![Local::zeros(); points];
             let weights = self.weights(k, load_factor);
             for (end, source) in self.sources[k].iter().enumerate().filter(|(end, _)| weights[*end] != 0.0) {
-                let Source::Imposed(own) = source else { continue };
+                let WaterSource::Imposed(own) = source else { continue };
                 let at = if own.follows && end == 1 { load_factor } else { 1.0 };
                 for p in 0..points {
                     let (pressure, slope) = own.at(operator, p, at, &point(k, p))?;
@@ -196,7 +131,7 @@ impl StepWater {
         for (end, flow) in self.flows.iter().enumerate() {
             let Some(flow) = flow else { continue };
             let weight = |k: usize| match self.sources[k][end] {
-                Source::Flow => self.weights(k, load_factor)[end],
+                WaterSource::Flow => self.weights(k, load_factor)[end],
                 _ => 0.0,
             };
             if flow.network.lines.iter().all(|line| weight(line.interface) == 0.0) {
@@ -222,7 +157,7 @@ impl StepWater {
         for number in load_factors {
             let load_factor = number as f64 / increments as f64;
             for (operator, sources) in model.interfaces.iter().zip(&self.sources) {
-                let Source::Imposed(own) = &sources[1] else { continue };
+                let WaterSource::Imposed(own) = &sources[1] else { continue };
                 for p in 0..operator.coupling.points.len() {
                     own.quantity.at(&FormulaPlace { load_factor, ..place(operator, p) })?;
                 }

@@ -5,17 +5,17 @@ use std::sync::Arc;
 use super::flow::BoundFlow;
 use super::flow_lines::StatedFlow;
 use super::pressures::Stated;
-use super::water::{Imposed, Source, StepWater};
+use super::water::{Imposed, StepWater, WaterSource};
 use crate::assembly::Model;
 use crate::error::Result;
 use crate::scene::{Scene, Variable};
 
 /// A question to parts by their numbers.
-type Parts<'p> = &'p dyn Fn(&[usize]) -> bool;
+type AskParts<'p> = &'p dyn Fn(&[usize]) -> bool;
 
 /// Water in force from step to step.
 pub(super) struct WaterInForce<'a> {
-    sources: Vec<Source>,
+    sources: Vec<WaterSource>,
     flows: Vec<StatedFlow<'a>>,
     /// Flow of the step before.
     flow: Option<Arc<BoundFlow>>,
@@ -23,7 +23,11 @@ pub(super) struct WaterInForce<'a> {
 
 impl<'a> WaterInForce<'a> {
     pub(super) fn new(model: &Model) -> WaterInForce<'a> {
-        WaterInForce { sources: vec![Source::Dry; model.interfaces.len()], flows: Vec::new(), flow: None }
+        WaterInForce {
+            sources: vec![WaterSource::Dry; model.interfaces.len()],
+            flows: Vec::new(),
+            flow: None,
+        }
     }
 
     /// Water of a step that states pressures; none where there is none before or in it. `there`: whether parts stay through the
@@ -34,7 +38,7 @@ impl<'a> WaterInForce<'a> {
         model: &Model,
         number: usize,
         stated: &[Option<Stated<'a>>],
-        [stay, are_there]: [Parts; 2],
+        [stay, are_there]: [AskParts; 2],
     ) -> Result<Option<StepWater>> {
         let before = self.sources.clone();
         for (k, stated) in stated.iter().enumerate() {
@@ -43,11 +47,11 @@ impl<'a> WaterInForce<'a> {
             self.sources[k] = match stated {
                 Stated::Imposed(quantity) => {
                     let follows = quantity.uses(Variable::LoadFactor);
-                    Source::Imposed(Arc::new(Imposed { quantity: quantity.clone(), follows }))
+                    WaterSource::Imposed(Arc::new(Imposed { quantity: quantity.clone(), follows }))
                 }
                 Stated::Flow(flow, key) => {
                     self.flows.push(StatedFlow { interface: k, flow, step: number, key: key.clone() });
-                    Source::Flow
+                    WaterSource::Flow
                 }
             };
         }
@@ -59,18 +63,20 @@ impl<'a> WaterInForce<'a> {
             true => None,
             false => Some(Arc::new(BoundFlow::new(scene, model, number, &flows)?)),
         };
-        let present = |source: &Source, is: bool| if is { source.clone() } else { Source::Dry };
+        let present = |source: &WaterSource, is: bool| if is { source.clone() } else { WaterSource::Dry };
         let both =
             |k: usize| [present(&before[k], stay(parts(k))), present(&self.sources[k], are_there(parts(k)))];
         let sources = (0..before.len()).map(both).collect();
         let water = StepWater::new(sources, [self.flow.take(), flow.clone()]);
         // what goes on stays as it is at load factor 1
         for source in &mut self.sources {
-            if let Source::Imposed(own) = source
+            if let WaterSource::Imposed(own) = source
                 && own.follows
             {
-                *source =
-                    Source::Imposed(Arc::new(Imposed { quantity: own.quantity.clone(), follows: false }));
+                *source = WaterSource::Imposed(Arc::new(Imposed {
+                    quantity: own.quantity.clone(),
+                    follows: false,
+                }));
             }
         }
         self.flow = flow;

@@ -1,9 +1,8 @@
 //! Validation of a scene beyond its types: names that exist, numbers that mean something.
 
 use super::named::{check_group, check_name};
-use super::{Plane, Scene, Step, Subdomain, Variable, split_group};
+use super::{Gravity, Plane, Scene, Step, Subdomain, Variable, split_group};
 use crate::error::{Result, name_help};
-use crate::scene::probe::Probe;
 
 impl Scene {
     /// Refuses the first thing that is wrong, with its line and key.
@@ -37,10 +36,7 @@ impl Scene {
                 return Err(self.source.error_at(&["density", &i.to_string()], what, help));
             }
         }
-        for (name, text) in &self.output.history {
-            let path = ["output", "history", name];
-            Probe::parse(text, self).map_err(|(what, help)| self.source.error_at(&path, what, help))?;
-        }
+        self.check_columns()?;
         Ok(())
     }
 
@@ -269,9 +265,17 @@ impl Scene {
 
     /// Gravity acts on a density.
     fn check_gravity(&self, index: &str, step: &Step) -> Result<()> {
-        let Some(values) = &step.gravity else { return Ok(()) };
-        let mut names: Vec<&str> = self.subdomains.values().map(|part| part.material.as_str()).collect();
-        if values.iter().all(|value| value.constant() == Some(0.0))
+        let Some(gravity) = &step.gravity else { return Ok(()) };
+        if let Gravity::Parts(parts) = gravity {
+            for name in parts.keys().filter(|name| !self.subdomains.contains_key(*name)) {
+                let help = name_help(name, self.subdomains.keys().map(String::as_str));
+                let path = ["steps", index, "gravity", name];
+                return Err(self.source.error_at(&path, format!("no subdomain \"{name}\""), help));
+            }
+        }
+        let pulled = self.subdomains.iter().filter(|(name, _)| gravity.of(name).is_some());
+        let mut names: Vec<&str> = pulled.map(|(_, part)| part.material.as_str()).collect();
+        if gravity.all().iter().flat_map(|(_, values)| *values).all(|value| value.constant() == Some(0.0))
             || names.iter().any(|name| self.materials[*name].density != 0.0)
         {
             return Ok(());

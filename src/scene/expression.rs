@@ -20,7 +20,12 @@ pub struct Expression {
 impl Expression {
     /// Compiles a text.
     pub fn parse(text: &str) -> Result<Expression, FormulaFault> {
-        let (code, fields) = grammar::compile(text)?;
+        Expression::over(text, &[])
+    }
+
+    /// Compiles a text over columns of these names.
+    pub fn over(text: &str, columns: &[&str]) -> Result<Expression, FormulaFault> {
+        let (code, fields) = grammar::compile(text, columns)?;
         let whole = |what: String, help: &str| FormulaFault { span: 0..text.len(), what, help: help.into() };
         let (mut height, mut highest) = (0, 0);
         for op in &code {
@@ -66,6 +71,16 @@ impl Expression {
     /// Its value at a place; not finite where the formula is not defined.
     pub fn at(&self, place: &FormulaPlace) -> f64 {
         evaluate(&self.code, &self.fields, place)
+    }
+
+    /// Its value for values of its columns at a load factor.
+    pub fn of_columns(&self, columns: &[f64], load_factor: f64) -> f64 {
+        let number = |op: &Op| match op {
+            Op::Column(k) => Op::Number(columns.get(*k).copied().unwrap_or(f64::NAN)),
+            other => *other,
+        };
+        let code: Vec<Op> = self.code.iter().map(number).collect();
+        evaluate(&code, &self.fields, &FormulaPlace { load_factor, ..FormulaPlace::default() })
     }
 
     /// Its derivative by a variable there; one-sided at a kink.

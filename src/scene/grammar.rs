@@ -25,9 +25,9 @@ const MOST_FIELDS: usize = 16;
 /// Seeds are below this.
 const LARGEST_SEED: f64 = 9e15;
 
-/// Compiles a text.
-pub(super) fn compile(text: &str) -> Result<(Vec<Op>, Vec<RandomField>), FormulaFault> {
-    let mut parser = Parser { text, at: 0, code: Vec::new(), fields: Vec::new(), depth: 0 };
+/// Compiles a text in which some names stand for columns.
+pub(super) fn compile(text: &str, columns: &[&str]) -> Result<(Vec<Op>, Vec<RandomField>), FormulaFault> {
+    let mut parser = Parser { text, columns, at: 0, code: Vec::new(), fields: Vec::new(), depth: 0 };
     if text.len() > LONGEST {
         return Err(parser.fault(0..0, "a formula of more than 10000 characters", "write it shorter"));
     }
@@ -40,6 +40,8 @@ pub(super) fn compile(text: &str) -> Result<(Vec<Op>, Vec<RandomField>), Formula
 
 struct Parser<'a> {
     text: &'a str,
+    /// Names of columns, which count before all others.
+    columns: &'a [&'a str],
     /// Byte that comes next.
     at: usize,
     code: Vec<Op>,
@@ -207,7 +209,9 @@ impl<'a> Parser<'a> {
         let (name, span) = (&rest[..length], self.at..self.at + length);
         self.at = span.end;
         let called = self.peek() == Some('(');
+        let column = self.columns.iter().position(|column| *column == name);
         let op = match name {
+            _ if column.is_some() => column.map(Op::Column),
             "pi" | "π" => Some(Op::Number(std::f64::consts::PI)),
             "e" => Some(Op::Number(std::f64::consts::E)),
             _ => Variable::ALL.into_iter().find(|v| v.name() == name).map(Op::Variable),
@@ -226,9 +230,11 @@ impl<'a> Parser<'a> {
                 Err(self.fault(span, &format!("\"{name}\" is a function"), &format!("write {name}( … )")))
             }
             (None, None) => {
-                let names = Variable::ALL.into_iter().map(Variable::name).chain(["pi", "e"]);
+                let mut names: Vec<&str> = self.columns.to_vec();
+                let known = Variable::ALL.into_iter().map(Variable::name).chain(["pi", "e"]);
+                known.chain(FUNCTIONS.iter().map(|(name, _)| *name)).for_each(|name| names.push(name));
                 let short: String = name.chars().take(AROUND).collect();
-                let help = name_help(&short, names.chain(FUNCTIONS.iter().map(|(name, _)| *name)));
+                let help = name_help(&short, names);
                 Err(self.fault(span, &format!("unknown name \"{short}\""), &help))
             }
         }

@@ -1,16 +1,19 @@
 //! Validation of the loads of a step: on groups, and of water in interfaces.
 
-use super::named::check_group;
-use super::{Flow, FlowEnd, JOINED, Load, Pressure, Scene, Step, Strategy, Value, Variable, split_group};
+use super::named::{check_group, is_pattern};
+use super::{
+    Flow, FlowEnd, Gravity, JOINED, Load, Pressure, Scene, Step, Strategy, Value, Variable, split_group,
+};
 use crate::error::{Result, name_help};
 
 impl Scene {
     /// True for a name of a load that can only be that of interfaces: one of them, or a pattern.
     pub fn names_interfaces(&self, name: &str) -> bool {
-        if self.subdomains.contains_key(split_group(name).0) {
+        let (subdomain, group) = split_group(name);
+        if group.is_some() || self.subdomains.contains_key(subdomain) {
             return false;
         }
-        self.interfaces.contains_key(name) || name.contains(['*', '?', JOINED])
+        self.interfaces.contains_key(name) || is_pattern(name) || name.contains(JOINED)
     }
 
     /// Refuses the first load of a step that means nothing.
@@ -52,8 +55,9 @@ impl Scene {
         for (name, values) in &step.body_force {
             self.check_place(&[&at("body_force")[..], &[name]].concat(), "", values)?;
         }
-        if let Some(values) = &step.gravity {
-            self.check_place(&at("gravity"), "", values)?;
+        for (part, values) in step.gravity.iter().flat_map(Gravity::all) {
+            let path: Vec<&str> = at("gravity").into_iter().chain(part).collect();
+            self.check_place(&path, "", values)?;
         }
         Ok(())
     }

@@ -5,15 +5,20 @@
 
 mod accuracy;
 mod check;
+mod column;
 pub mod expression;
 mod functions;
 mod grammar;
+mod gravity;
 mod ground;
 mod interface;
 mod interface_check;
+mod joint_probe;
 mod load_check;
 mod named;
 mod op;
+mod patterns;
+mod plain;
 mod pressure;
 pub mod probe;
 mod random;
@@ -27,8 +32,11 @@ mod stated_law;
 mod value;
 
 pub use accuracy::{Accuracy, Preset};
+pub use column::Column;
+pub use gravity::Gravity;
 pub use ground::{Ground, InitialStress, StressComponents};
 pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED, OneOrMany, Quadrature};
+pub use named::is_pattern;
 pub use op::{FormulaPlace, Variable};
 pub use pressure::{Drain, Flow, FlowEnd, Pressure};
 pub use read::{document, parse, read};
@@ -146,7 +154,7 @@ pub struct Step {
     /// Control from increment to increment.
     #[serde(default)]
     pub control: Control,
-    /// Directions held at zero, by group.
+    /// Directions held at zero, by group, its name or a pattern (`*` any text, `?` any character), as all groups of a step.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub fix: IndexMap<String, Vec<Direction>>,
     /// Total displacement by group, ramped from its value at the start of the step [length]. A formula that holds
@@ -163,12 +171,12 @@ pub struct Step {
     /// are its value at every load factor of the step, and that at load_factor 1 afterwards.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub load: IndexMap<String, Load>,
-    /// Force per volume (x, y) by subdomain [force / volume], ramped like a load.
+    /// Force per volume (x, y) by subdomain, names or patterns [force / volume], ramped like a load.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub body_force: IndexMap<String, [Value; 2]>,
-    /// Acceleration (x, y) that acts on every density [length / time²], ramped like a load.
+    /// Acceleration (x, y) that acts on every density [length / time²], or by subdomain, ramped like a load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gravity: Option<[Value; 2]>,
+    pub gravity: Option<Gravity>,
     /// Subdomains that come in this step, names or patterns with `*` and `?`: free of stress, in the place to which their
     /// neighbours have moved. One that is first mentioned here is absent until then.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -227,9 +235,9 @@ pub struct Output {
     /// Which increments write their fields.
     #[serde(default)]
     pub fields: Fields,
-    /// Columns of history.csv: name → probe, such as `interface.traction_t@0.5`.
+    /// Columns of history.csv by name: a probe, such as `interface.traction_t@0.5`, or a formula over those before it.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub history: IndexMap<String, String>,
+    pub history: IndexMap<String, Column>,
 }
 
 /// Which increments write their fields.

@@ -5,19 +5,28 @@ use wildmatch::WildMatch;
 use super::{Scene, split_group};
 use crate::error::{Result, name_help};
 
-/// A name that becomes a file name: letters, digits, `_` and `-`.
+/// A name that becomes a file name: letters, digits, `_`, `-`, and spaces between them.
 pub(super) fn check_name(scene: &Scene, path: &[&str], name: &str) -> Result<()> {
-    let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
-    if good && !name.starts_with('-') {
+    let good = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c));
+    if good && !name.starts_with('-') && name.trim() == name {
         return Ok(());
     }
     let what = format!("\"{name}\" cannot name a file");
-    Err(scene.source.error_at(path, what, "use letters, digits, _ and -"))
+    Err(scene.source.error_at(path, what, "use letters, digits, _, - and spaces between them"))
 }
 
-/// The subdomain of a group must exist; whether it has that group is known when its mesh is.
+/// True for a pattern: `*` is any text, `?` any character.
+pub fn is_pattern(name: &str) -> bool {
+    name.contains(['*', '?'])
+}
+
+/// The subdomain of a group must exist, or some that fit its pattern; whether they have that group is known when their meshes
+/// are.
 pub(super) fn check_group(scene: &Scene, path: &[&str], group: &str) -> Result<()> {
     let subdomain = split_group(group).0;
+    if is_pattern(subdomain) {
+        return matching(scene, path, subdomain).map(|_| ());
+    }
     if scene.subdomains.contains_key(subdomain) {
         return Ok(());
     }

@@ -65,6 +65,8 @@ pub(super) enum Op {
     Variable(Variable),
     /// The field of this number.
     Random(usize),
+    /// The column of this number; a number once its value is known.
+    Column(usize),
     Add,
     Subtract,
     Multiply,
@@ -79,7 +81,7 @@ impl Op {
     /// Number of operands.
     pub(super) fn takes(&self) -> usize {
         match self {
-            Op::Number(_) | Op::Variable(_) | Op::Random(_) => 0,
+            Op::Number(_) | Op::Variable(_) | Op::Random(_) | Op::Column(_) => 0,
             Op::One(..) => 1,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(..) => 2,
             Op::Three(..) => 3,
@@ -152,6 +154,7 @@ fn evaluate_one(op: &Op, [a, b, c]: [f64; 3], fields: &[RandomField], place: &Fo
         Op::Number(value) => value,
         Op::Variable(variable) => place.value(variable),
         Op::Random(field) => fields[field].at(place.x, place.y, place.z),
+        Op::Column(_) => f64::NAN,
         Op::Add => a + b,
         Op::Subtract => a - b,
         Op::Multiply => a * b,
@@ -174,7 +177,7 @@ pub(super) fn derivative(code: &[Op], fields: &[RandomField], place: &FormulaPla
         let times = |slope: f64, k: usize| if by_operand(k) == 0.0 { 0.0 } else { slope * by_operand(k) };
         let value = evaluate_one(op, [at(0), at(1), at(2)], fields, place);
         let slope = match *op {
-            Op::Number(_) | Op::Random(_) => 0.0,
+            Op::Number(_) | Op::Random(_) | Op::Column(_) => 0.0,
             Op::Variable(variable) => f64::from(u8::from(variable == by)),
             Op::Add => by_operand(0) + by_operand(1),
             Op::Subtract => by_operand(0) - by_operand(1),

@@ -4,9 +4,13 @@
 //! group, `interface.resultant_t` the force across an interface, `interface.moment` that about its middle, `energy.stored`, `energy.dissipated`,
 //! `energy.released`, `energy.viscous`, `work.external`, `work.water`; of water `interface.uplift`, `interface.rate@0`, …
 
+use wildmatch::WildMatch;
+
+pub use super::joint_probe::{JointField, JointQuantity, RatePlace, Statistic};
+use super::joint_probe::{JointProbe, joint};
+use super::named::is_pattern;
 use super::{Direction, JOINED, Scene};
 use crate::error::name_help;
-use crate::law::{self, LawVariable};
 
 /// A question to an increment.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,38 +24,23 @@ pub enum Probe {
         /// 0 at the start of the mid-plane, 1 at its end, counted along chain A with n on its left.
         fraction: f64,
     },
-    /// Resultant of the traction across an interface [force].
-    Resultant {
-        /// The interface.
+    /// A quantity of a whole interface, or of all that fit a pattern.
+    Joint {
+        /// The interface, its name or a pattern.
         interface: String,
-        /// Component: n or t.
-        component: usize,
+        /// The quantity.
+        quantity: JointQuantity,
     },
-    /// Resultant of traction and pressure, component n [force].
-    TotalResultant {
-        /// The interface.
-        interface: String,
+    /// Sum of the reactions of a group, or over the union of those of a pattern [force].
+    Reaction {
+        /// The group, its name or a pattern.
+        group: String,
+        /// Its direction.
+        direction: Direction,
     },
-    /// Resultant of the pressure in an interface, positive where it pushes the sides apart [force].
-    Uplift {
-        /// The interface.
-        interface: String,
-    },
-    /// Rate of flow at an end of an interface, or that which its drains take, for a unit thickness [length² / time].
-    Rate {
-        /// The interface.
-        interface: String,
-        /// At which place.
-        place: RatePlace,
-    },
-    /// Moment of the traction across an interface about its middle, positive where tension grows along it [force × length].
-    Moment {
-        /// The interface.
-        interface: String,
-    },
-    /// Mean displacement of a group [length].
+    /// Mean displacement of a group, or over the union of those of a pattern [length].
     Displacement {
-        /// The group, `<subdomain>` or `<subdomain>.<group>`.
+        /// The group, `<subdomain>` or `<subdomain>.<group>`, or a pattern.
         group: String,
         /// Its direction.
         direction: Direction,
@@ -70,56 +59,7 @@ pub enum Probe {
     WorkWater,
 }
 
-/// Place of a rate of flow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RatePlace {
-    /// Start, s = 0.
-    Start,
-    /// End, s = 1.
-    End,
-    /// All drains.
-    Drains,
-}
-
-/// A field along an interface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum JointField {
-    /// Jump, component n or t [length].
-    Jump(usize),
-    /// Traction, component n or t [stress].
-    Traction(usize),
-    /// Traction less the pressure, component n or t [stress].
-    TotalTraction(usize),
-    /// Pressure, positive [stress].
-    Pressure,
-    /// Hydraulic aperture of flow [length].
-    Aperture,
-    /// A variable that a law has of its own.
-    Variable(&'static LawVariable),
-}
-
 const DISPLACEMENTS: [&str; 2] = ["displacement_x", "displacement_y"];
-const JOINT_FIELDS: [(&str, JointField); 8] = [
-    ("jump_n", JointField::Jump(0)),
-    ("jump_t", JointField::Jump(1)),
-    ("traction_n", JointField::Traction(0)),
-    ("traction_t", JointField::Traction(1)),
-    ("traction_total_n", JointField::TotalTraction(0)),
-    ("traction_total_t", JointField::TotalTraction(1)),
-    ("pressure", JointField::Pressure),
-    ("hydraulic_aperture", JointField::Aperture),
-];
-
-/// Quantities of a whole interface.
-const WHOLE: [&str; 7] =
-    ["resultant_n", "resultant_t", "total_resultant_n", "uplift", "moment", "rate", "drain_rate"];
-
-/// Fields along an interface by name: jump, traction, and what laws know beyond.
-fn joint_fields() -> impl Iterator<Item = (&'static str, JointField)> {
-    let own = law::variables().map(|variable| (variable.name, JointField::Variable(variable)));
-    JOINT_FIELDS.into_iter().chain(own)
-}
-
 impl Probe {
     /// Reads a probe; on failure (what is wrong, what would have been right).
     pub fn parse(text: &str, scene: &Scene) -> std::result::Result<Probe, (String, String)> {
@@ -132,6 +72,9 @@ impl Probe {
             "work.water" => return Ok(Probe::WorkWater),
             _ => {}
         }
+        if let Some(rest) = text.strip_prefix("reaction:") {
+            return reaction(rest, scene);
+        }
         check_separators(text, scene)?;
         let Some((object, field)) = text.rsplit_once('.').filter(|_| !text.contains('@')).or_else(|| {
             let dot = text.split('@').next().and_then(|head| head.rfind('.'))?;
@@ -140,18 +83,25 @@ impl Probe {
             let help = "write something like joint.traction_t@0.5, upper.top.displacement_y or energy.stored";
             return Err((format!("\"{text}\" is not a probe"), help.into()));
         };
-        if scene.entry(object).is_some() {
-            return interface(object, field);
+        let displacement = DISPLACEMENTS.iter().position(|known| *known == field);
+        if scene.entry(object).is_some() || is_pattern(object) && displacement.is_none() {
+            let interface = object.to_string();
+            return Ok(match joint(object, field)? {
+                JointProbe::At(field, fraction) => Probe::Interface { interface, field, fraction },
+                JointProbe::Whole(quantity) => Probe::Joint { interface, quantity },
+            });
         }
         if scene.interfaces.contains_key(object) {
             let what = format!("\"{object}\" makes an interface of every pair that touches");
             return Err((
                 what,
-                format!("name one of them, such as {object}{JOINED}a{JOINED}b for side A on a and B on b"),
+                format!(
+                    "name one of them, such as {object}{JOINED}a{JOINED}b for side A on a and B on b, or all: {object}{JOINED}*"
+                ),
             ));
         }
-        if scene.subdomains.contains_key(super::split_group(object).0) {
-            let direction = match DISPLACEMENTS.iter().position(|known| *known == field) {
+        if is_of_subdomain(object, scene) {
+            let direction = match displacement {
                 Some(0) => Direction::X,
                 Some(_) => Direction::Y,
                 None => return Err((format!("no field \"{field}\""), name_help(field, DISPLACEMENTS))),
@@ -162,6 +112,33 @@ impl Probe {
         let names = names.chain(["energy", "work"]);
         Err((format!("no interface or subdomain \"{object}\""), name_help(object, names)))
     }
+}
+
+/// True for a group of a subdomain, or a pattern that fits some.
+fn is_of_subdomain(object: &str, scene: &Scene) -> bool {
+    let subdomain = super::split_group(object).0;
+    let matcher = WildMatch::new(subdomain);
+    scene.subdomains.contains_key(subdomain)
+        || is_pattern(subdomain) && scene.subdomains.keys().any(|name| matcher.matches(name))
+}
+
+/// The probe of a reaction, `<group or pattern>:x` or `…:y`.
+fn reaction(text: &str, scene: &Scene) -> std::result::Result<Probe, (String, String)> {
+    let (group, direction) = text.rsplit_once(':').unwrap_or((text, ""));
+    let direction = match direction {
+        "x" => Direction::X,
+        "y" => Direction::Y,
+        _ => {
+            let help = "write reaction:upper.top:x or reaction:*.bottom:y";
+            return Err((format!("\"reaction:{text}\" has no direction"), help.into()));
+        }
+    };
+    if is_of_subdomain(group, scene) {
+        return Ok(Probe::Reaction { group: group.into(), direction });
+    }
+    let subdomain = super::split_group(group).0;
+    let help = name_help(subdomain, scene.subdomains.keys().map(String::as_str));
+    Err((format!("no subdomain \"{subdomain}\""), help))
 }
 
 /// Refuses a group whose name holds the separator of a place, which nothing could tell from the place itself.
@@ -177,41 +154,4 @@ fn check_separators(text: &str, scene: &Scene) -> std::result::Result<(), (Strin
         return Err((what, help.into()));
     }
     Ok(())
-}
-
-fn interface(interface: &str, field: &str) -> std::result::Result<Probe, (String, String)> {
-    let (name, fraction) = match field.split_once('@') {
-        Some((name, fraction)) => (name, Some(fraction)),
-        None => (field, None),
-    };
-    let component = ["resultant_n", "resultant_t"].iter().position(|&r| r == name);
-    if let (Some(component), None) = (component, fraction) {
-        return Ok(Probe::Resultant { interface: interface.into(), component });
-    }
-    let whole = || interface.to_string();
-    match (name, fraction) {
-        ("moment", None) => return Ok(Probe::Moment { interface: whole() }),
-        ("total_resultant_n", None) => return Ok(Probe::TotalResultant { interface: whole() }),
-        ("uplift", None) => return Ok(Probe::Uplift { interface: whole() }),
-        ("drain_rate", None) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::Drains }),
-        ("rate", Some("0")) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::Start }),
-        ("rate", Some("1")) => return Ok(Probe::Rate { interface: whole(), place: RatePlace::End }),
-        ("rate", at) => {
-            let what = at.map_or("a rate of flow at no place".into(), |at| format!("a rate of flow at {at}"));
-            return Err((what, "write rate@0 or rate@1, or drain_rate for what the drains take".into()));
-        }
-        _ => {}
-    }
-    let Some((_, field)) = joint_fields().find(|(known, _)| *known == name) else {
-        let names = joint_fields().map(|(name, _)| name).chain(WHOLE);
-        return Err((format!("no field \"{name}\""), name_help(name, names)));
-    };
-    let number = fraction.and_then(|f| f.parse::<f64>().ok()).filter(|f| (0.0..=1.0).contains(f));
-    match number {
-        Some(fraction) => Ok(Probe::Interface { interface: interface.into(), field, fraction }),
-        None => Err((
-            format!("\"{}\" does not say where", fraction.unwrap_or(name)),
-            format!("add a fraction of the length from 0 to 1, such as {name}@0.5"),
-        )),
-    }
 }

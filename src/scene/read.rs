@@ -6,6 +6,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::Segment;
 
+use super::plain::plain;
 use super::{Accuracy, Scene, Source, expression::Expression, set};
 use crate::error::{At, Error, Result, name_help};
 
@@ -43,6 +44,7 @@ pub fn parse(
     };
     let (mut scene, source) = document::<Scene>(file, text, "a scene", set)?;
     scene.source = source;
+    scene.name_parts()?;
     scene.check()?;
     Ok(scene)
 }
@@ -54,7 +56,8 @@ pub fn document<T: DeserializeOwned>(
     noun: &str,
     change: impl FnOnce(&mut Value, &Source) -> Result<()>,
 ) -> Result<(T, Source)> {
-    let mut value: Value = serde_json::from_str(&text).map_err(|error| syntax(&file, &text, noun, &error))?;
+    let parsed = serde_json::from_str(&plain(&text));
+    let mut value: Value = parsed.map_err(|error| syntax(&file, &text, noun, &error))?;
     let source = Source::new(file, text);
     if let Some(path) = &source.duplicate {
         let key = path.last().map_or("", String::as_str);
@@ -105,9 +108,25 @@ fn syntax(file: &Path, text: &str, noun: &str, error: &serde_json::Error) -> Err
         text: text.into(),
         span: offset..offset + text[offset..].chars().next().map_or(0, char::len_utf8),
     };
+    let decimal = decimal_comma(&text[..offset], &text[offset..]);
+    if let Some(number) = decimal {
+        let (what, help) = (format!("\"{number}\" is no number"), "decimals take a point, as in 1.0");
+        return Error::Text { at: Box::new(at), what, help: help.into() };
+    }
     let message = error.to_string();
     let what = message.split(" at line ").next().unwrap_or(&message).to_string();
     Error::Text { at: Box::new(at), what, help: format!("{noun} is one JSON object") }
+}
+
+/// A number with a comma for its point, around a place where JSON wants something else.
+fn decimal_comma(before: &str, after: &str) -> Option<String> {
+    let digits = |c: char| c.is_ascii_digit();
+    let decimals: String = after.chars().take_while(|c| digits(*c)).collect();
+    let whole: String = before.strip_suffix(',')?.chars().rev().take_while(|c| digits(*c)).collect();
+    if decimals.is_empty() || whole.is_empty() {
+        return None;
+    }
+    Some(format!("{},{decimals}", whole.chars().rev().collect::<String>()))
 }
 
 /// serde's message as (what is wrong, what would have been right).
@@ -204,6 +223,12 @@ mod tests {
             ("1.0e4", "-1.0e4", "scene.json:7 materials.rock.young: "),
             ("1.0e4", "1e400", "scene.json:7"),
             ("1.0e4", "NaN", "scene.json:7"),
+            ("1.0e4", "1,0", "scene.json:7: \"1,0\" is no number; decimals take a point, as in 1.0"),
+            (
+                "[\"y\"], \"lower.corner\"",
+                "[\"Y\"], \"lower.corner\"",
+                "steps.0.fix.lower.bottom.0: unknown value \"Y\"; there is x, y. Did you mean \"y\"?",
+            ),
             (
                 "\"material\": \"rock\"",
                 "\"material\": \"rok\"",
@@ -264,7 +289,7 @@ mod tests {
             let _ = parsed("scene.json".into(), SCENE[..n].to_string(), &[]);
             let _ = parsed("scene.json".into(), format!("{}é{}", &SCENE[..n], &SCENE[n + 1..]), &[]);
         }
-        for text in ["", "[]", "null", "{}", "\u{feff}{}"] {
+        for text in ["", "[]", "null", "{}", "\u{feff}{}", "// {}", "/*"] {
             assert!(parsed("scene.json".into(), text.into(), &[]).is_err());
         }
     }

@@ -3,11 +3,17 @@
 //! KEY is a path with dots, `steps.0.load.upper.top.pressure`, or a JSON pointer, `/steps/0/load/upper.top/pressure`.
 //! Keys that hold dots themselves are found because the longest key that exists wins. VALUE is JSON, or else a string.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use crate::error::{At, Error, Result};
+use super::named::is_pattern;
+use super::{JOINED, split_group};
+use crate::error::{At, Error, Result, name_help};
+
+/// Keys whose names a setting cannot add to.
+const NAMED: [&str; 3] = ["subdomains", "materials", "interfaces"];
 
 /// Applies one `KEY=VALUE` to a scene.
 pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()> {
@@ -27,6 +33,12 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
     if parts.iter().any(String::is_empty) {
         return Err(error_at("an empty part in the key".into(), "write a key such as steps.0.increments"));
     }
+    let names = |key: &str| -> Vec<String> {
+        let named = scene.get(key).and_then(Value::as_object);
+        named.map_or_else(Vec::new, |map| map.keys().cloned().collect())
+    };
+    let known: HashMap<&str, Vec<String>> = NAMED.into_iter().map(|key| (key, names(key))).collect();
+    let mut done: Vec<String> = Vec::new();
     let mut at = scene;
     while !parts.is_empty() {
         at = match at {
@@ -36,11 +48,18 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
                     .find(|&n| object.contains_key(&parts[..n].join(".")))
                     .unwrap_or(1);
                 let name: String = parts.drain(..taken).collect::<Vec<_>>().join(".");
+                if !object.contains_key(&name)
+                    && let Some((what, help)) = unknown(&known, &done, &name)
+                {
+                    return Err(error_at(what, &help));
+                }
+                done.push(name.clone());
                 let empty = if parts.is_empty() { Value::Null } else { Value::Object(Map::new()) };
                 object.entry(name).or_insert(empty)
             }
             Value::Array(list) => {
                 let part = parts.remove(0);
+                done.push(part.clone());
                 let length = list.len();
                 part.parse::<usize>().ok().and_then(|i| list.get_mut(i)).ok_or_else(|| {
                     error_at(
@@ -59,10 +78,61 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
     Ok(())
 }
 
+/// Why a name that is not there cannot be made at a path, and what there is: parts, materials and interfaces are stated in the file,
+/// and what a step acts on belongs to one of them.
+fn unknown(known: &HashMap<&str, Vec<String>>, path: &[String], name: &str) -> Option<(String, String)> {
+    let path: Vec<&str> = path.iter().map(String::as_str).collect();
+    let of = |keys: &[&str]| -> Vec<String> { keys.iter().flat_map(|key| known[key].clone()).collect() };
+    let (kind, there) = match path[..] {
+        ["subdomains"] => ("subdomain", of(&["subdomains"])),
+        ["materials"] => ("material", of(&["materials"])),
+        ["interfaces"] => ("interface", of(&["interfaces"])),
+        ["steps", _, "fix" | "displace" | "hold" | "release" | "body_force" | "temperature" | "strain"] => {
+            ("subdomain", of(&["subdomains"]))
+        }
+        ["steps", _, "load"] => ("subdomain or interface", of(&["subdomains", "interfaces"])),
+        _ => return None,
+    };
+    let own = split_group(name).0;
+    let is_there = is_pattern(own)
+        || there.iter().any(|known| own == *known || own.starts_with(&format!("{known}{JOINED}")));
+    (!is_there).then(|| (format!("no {kind} \"{own}\""), name_help(own, there.iter().map(String::as_str))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn a_misspelt_name_is_told_and_not_made() {
+        let scene = json!({"subdomains": {"lower": {}, "upper": {}}, "materials": {"rock": {"young": 1.0}},
+            "interfaces": {"joint": {}}, "steps": [{"load": {"upper.top": {"pressure": 1.0}}}]});
+        for (setting, told) in [
+            ("materials.rok.young=2", "no material \"rok\"; there is rock. Did you mean \"rock\"?"),
+            (
+                "subdomains.lowr.parameters.n=2",
+                "no subdomain \"lowr\"; there is lower, upper. Did you mean \"lower\"?",
+            ),
+            ("interfaces.join.law.type=elastic", "Did you mean \"joint\"?"),
+            (
+                "steps.0.load.uper.top.pressure=2",
+                "no subdomain or interface \"uper\"; there is lower, upper, joint. Did you mean \"upper\"?",
+            ),
+        ] {
+            let mut changed = scene.clone();
+            let message = apply(&mut changed, setting, Path::new("s.json")).unwrap_err().to_string();
+            assert!(message.contains(told), "{message}");
+            assert_eq!(changed, scene);
+        }
+        for good in [
+            "steps.0.load.joint.pressure=1",
+            "/steps/0/load/lower.top/pressure=1",
+            "output.history.t=energy.stored",
+        ] {
+            apply(&mut scene.clone(), good, Path::new("s.json")).unwrap();
+        }
+    }
 
     #[test]
     fn dotted_keys_and_pointers_reach_the_same_value() {

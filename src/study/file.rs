@@ -123,6 +123,13 @@ pub enum Measure {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reference: Option<f64>,
     },
+    /// Load factor at the end of the run, where it has a limit: a point that ends without equilibrium has reached it and is none that
+    /// failed.
+    Reached {
+        /// Its exact value.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        reference: Option<f64>,
+    },
     /// ‖field − exact‖ / ‖exact‖ in L2 at the end.
     Error {
         /// The field.
@@ -174,7 +181,7 @@ impl Measure {
         match self {
             Measure::Last { of, .. } | Measure::Peak { of, .. } => vec![of],
             Measure::AtPeak { of, peak_of, .. } => vec![of, peak_of],
-            Measure::Error { .. } => Vec::new(),
+            Measure::Reached { .. } | Measure::Error { .. } => Vec::new(),
         }
     }
 
@@ -183,7 +190,8 @@ impl Measure {
         match self {
             Measure::Last { reference, .. }
             | Measure::Peak { reference, .. }
-            | Measure::AtPeak { reference, .. } => *reference,
+            | Measure::AtPeak { reference, .. }
+            | Measure::Reached { reference } => *reference,
             Measure::Error { .. } => None,
         }
     }

@@ -52,6 +52,7 @@ impl<'a> Gauge<'a> {
                         *taken = (column(of), peak);
                     }
                 }
+                Measure::Reached { .. } => taken.0 = row.load_factor,
                 // the displacements of an increment whose fields are not stored may be missing; the last has them
                 Measure::Error { field, of, exact } => taken.0 = error(problem, state, *field, of, exact),
             }
@@ -70,7 +71,13 @@ impl<'a> Gauge<'a> {
             ("rejected", totals.rejected as f64),
             ("factorisations", totals.factorisations as f64),
             ("factor_entries", totals.factor_entries as f64),
+            ("reached", row.load_factor),
         ]);
+    }
+
+    /// True if the load factor at the end is measured: then an end without equilibrium is a limit.
+    pub(super) fn seeks_limit(&self) -> bool {
+        self.measures.values().any(|measure| matches!(measure, Measure::Reached { .. }))
     }
 
     /// The measures by name; what could not be taken is not a number.

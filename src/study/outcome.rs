@@ -3,6 +3,9 @@
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
+/// Status of a point that has reached the limit that is sought.
+pub(super) const LIMIT: &str = "limit";
+
 /// A point that was run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PointOutcome {
@@ -12,7 +15,7 @@ pub struct PointOutcome {
     pub key: String,
     /// Its settings on top of the scene.
     pub settings: Vec<String>,
-    /// "done", "stopped" (no equilibrium), or "refused".
+    /// "done", "limit" (no equilibrium beyond the load factor that is measured), "stopped" (no equilibrium), or "refused".
     pub status: String,
     /// Why it is not done.
     pub message: String,
@@ -40,9 +43,9 @@ impl PointOutcome {
         self.values.get(measure).copied().flatten().unwrap_or(f64::NAN)
     }
 
-    /// True if it went to its end.
+    /// True if it went to its end, or to the limit that is sought.
     pub fn done(&self) -> bool {
-        self.status == "done"
+        self.status == "done" || self.status == LIMIT
     }
 
     /// Fastest, median and (slowest − fastest)/median of the repeats [s].

@@ -8,7 +8,7 @@ use indexmap::IndexMap;
 
 use super::file::Process;
 use super::gauge::Gauge;
-use super::outcome::PointOutcome;
+use super::outcome::{LIMIT, PointOutcome};
 use super::plan::StudyPlan;
 use crate::error::{Error, Result};
 use crate::output::write_json;
@@ -120,7 +120,10 @@ pub(super) fn run_once(
             ("done", String::new(), stages.collect())
         }
         Err(error) if error.exit_code() == 4 => return Err(error),
-        Err(error @ Error::NoEquilibrium { .. }) => ("stopped", error.to_string(), IndexMap::new()),
+        Err(error @ Error::NoEquilibrium { .. }) => {
+            let status = if gauge.seeks_limit() { LIMIT } else { "stopped" };
+            (status, error.to_string(), IndexMap::new())
+        }
         Err(error) => ("refused", error.to_string(), IndexMap::new()),
     };
     let known = |value: f64| value.is_finite().then_some(value);

@@ -1,11 +1,11 @@
 //! Branches of a line of flow: from one node to the next, with their resistance and what it owes to the jumps.
 
-use super::FlowLine;
 use super::aperture::{Resistance, between};
 use super::interval::{Interval, Polynomial};
+use super::line::FlowLine;
 
 /// A branch with its resistance Y and the part of it up to its law points.
-pub(super) struct Branch {
+pub(super) struct FlowBranch {
     pub line: usize,
     pub nodes: [usize; 2],
     /// 12 μ.
@@ -27,10 +27,10 @@ pub(super) struct PointOnBranch {
 
 impl FlowLine {
     /// Its branches for normal jumps at its law points, whose numbers over all lines start at `first`.
-    pub(super) fn branches(&self, line: usize, jumps: &[f64], first: usize) -> Vec<Branch> {
+    pub(super) fn branches(&self, line: usize, jumps: &[f64], first: usize) -> Vec<FlowBranch> {
         let mut branches = Vec::with_capacity(self.stations.len() - 1);
         let (mut start, mut next) = (0.0, 0);
-        let open = |k: usize| Branch {
+        let open = |k: usize| FlowBranch {
             line,
             nodes: [self.stations[k].node, self.stations[k + 1].node],
             twelve_mu: 12.0 * self.viscosity,

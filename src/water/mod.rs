@@ -13,7 +13,9 @@
 mod aperture;
 mod branch;
 mod interval;
+mod line;
 mod network;
 
 pub use interval::Interval;
-pub use network::{BranchFlow, FlowLine, FlowNode, Flowing, Network, Slopes, Station};
+pub use line::{FlowLine, Station};
+pub use network::{BranchFlow, FlowNode, Flowing, JumpSlopes, Network};

@@ -3,32 +3,8 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
-use super::Interval;
-use super::branch::Branch;
-
-/// A place of a line that is a node of the network.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Station {
-    /// Arc length along the line [length].
-    pub s: f64,
-    /// Number of the node.
-    pub node: usize,
-}
-
-/// An interface with flow.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FlowLine {
-    /// Number of the interface.
-    pub interface: usize,
-    /// Aperture where the faces touch [length].
-    pub aperture: f64,
-    /// Viscosity μ [stress × time].
-    pub viscosity: f64,
-    /// Its intervals from s = 0 to s = 1, without a break.
-    pub intervals: Vec<Interval>,
-    /// Its nodes in order: both ends, and drains and junctions between.
-    pub stations: Vec<Station>,
-}
+use super::branch::FlowBranch;
+use super::line::FlowLine;
 
 /// A node of a network: with a given pressure, or with rates that sum to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,19 +40,19 @@ pub struct BranchFlow {
 pub struct Flowing {
     /// Pressures at the law points of every line [stress].
     pub pressures: Vec<Vec<f64>>,
-    /// Branch of every law point of every line.
+    /// FlowBranch of every law point of every line.
     pub branch_of: Vec<Vec<usize>>,
     /// The branches, line by line from s = 0 to s = 1.
     pub branches: Vec<BranchFlow>,
     /// Pressures at the nodes [stress].
     pub nodes: Vec<f64>,
     /// Derivatives of the pressures, if they were asked for.
-    pub slopes: Option<Slopes>,
+    pub slopes: Option<JumpSlopes>,
 }
 
 /// Derivatives of the pressures at all law points, line after line, by the normal jumps there [stress / length].
 #[derive(Debug, Clone)]
-pub struct Slopes {
+pub struct JumpSlopes {
     /// Row: pressure; column: normal jump.
     pub matrix: Mat<f64>,
 }
@@ -111,7 +87,7 @@ impl Network {
     /// The flow for normal jumps at the law points of every line and the given pressures.
     pub fn flow(&self, jumps: &[Vec<f64>], given: &[f64], with_slopes: bool) -> Flowing {
         let first = self.first_points();
-        let branches: Vec<Branch> = (self.lines.iter().enumerate())
+        let branches: Vec<FlowBranch> = (self.lines.iter().enumerate())
             .flat_map(|(l, line)| line.branches(l, &jumps[l], first[l]))
             .collect();
         let free: Vec<Option<usize>> = {
@@ -125,7 +101,7 @@ impl Network {
             self.nodes.iter().map(number).collect()
         };
         let unknowns = free.iter().flatten().count();
-        let conductance = |branch: &Branch| 1.0 / (branch.twelve_mu * branch.whole);
+        let conductance = |branch: &FlowBranch| 1.0 / (branch.twelve_mu * branch.whole);
         // Σ g (p_i − p_j) = 0, every row over the sum of its conductances
         let mut scale = vec![0.0; unknowns];
         for branch in &branches {
@@ -183,7 +159,7 @@ impl Network {
             }
             slopes(&branches, &nodes, &free, &by_resistance, first[self.lines.len()])
         });
-        let flow = |branch: &Branch| {
+        let flow = |branch: &FlowBranch| {
             let [p, q] = branch.nodes.map(|node| nodes[node]);
             BranchFlow { line: branch.line, nodes: branch.nodes, rate: (p - q) * conductance(branch) }
         };
@@ -193,12 +169,12 @@ impl Network {
 
 /// dp = dp_u (1 − θ) + dp_v θ − (p_u − p_v) dθ with θ = Y_l/Y.
 fn slopes(
-    branches: &[Branch],
+    branches: &[FlowBranch],
     nodes: &[f64],
     free: &[Option<usize>],
     by_resistance: &Mat<f64>,
     points: usize,
-) -> Slopes {
+) -> JumpSlopes {
     let mut matrix = Mat::<f64>::zeros(points, points);
     for branch in branches {
         let [u, v] = branch.nodes;
@@ -222,11 +198,13 @@ fn slopes(
             at.own.iter().for_each(|&(m, slope)| matrix[(at.point, m)] -= drop * slope / branch.whole);
         }
     }
-    Slopes { matrix }
+    JumpSlopes { matrix }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::interval::Interval;
+    use super::super::line::Station;
     use super::*;
 
     fn line(interface: usize, stations: &[(f64, usize)]) -> FlowLine {

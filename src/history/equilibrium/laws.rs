@@ -154,7 +154,8 @@ impl Respond for Laws<'_> {
         by_load_factor: bool,
     ) -> Result<Option<Pressures>, String> {
         let Some(water) = self.water else { return Ok(None) };
-        press(self, water, active, jumps, memory, by_load_factor).map(Some)
+        let water = (water, self.load_factor);
+        press(self.problem, self.old.presence, water, active, jumps, memory, by_load_factor).map(Some)
     }
 
     fn at(self, load_factor: f64) -> Self {

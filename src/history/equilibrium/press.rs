@@ -1,21 +1,21 @@
 //! Water as Newton's method asks it: pressures of interfaces where these depend on the jumps. All others are loads.
 
-use super::laws::Laws;
 use crate::history::converged::PointResponse;
 use crate::law::local;
-use crate::problem::{StepWater, WaterPoint};
+use crate::output::Presence;
+use crate::problem::{Problem, StepWater, WaterPoint};
 use crate::solver::{PressureSlopes, Pressures};
 
 /// Pressures at the law points of the active interfaces, which keep theirs.
 pub(super) fn press(
-    laws: &Laws,
-    water: &StepWater,
+    problem: &Problem,
+    presence: &Presence,
+    (water, load_factor): (&StepWater, f64),
     active: &[usize],
     jumps: &[Vec<f64>],
     memory: &mut [Vec<PointResponse>],
     by_load_factor: bool,
 ) -> Result<Pressures, String> {
-    let problem = laws.problem;
     let c = problem.model.components;
     let mut place = vec![None; problem.interfaces.len()];
     let coupled = active.iter().enumerate().filter(|(_, k)| problem.interfaces[**k].coupled_pressure);
@@ -23,11 +23,11 @@ pub(super) fn press(
     let point = |k: usize, p: usize| -> WaterPoint {
         let Some(a) = place[k] else { return WaterPoint::default() };
         let own = &memory[a][p];
-        let jump = laws.old.presence.counted(k, p, local(&jumps[a][c * p..c * (p + 1)]));
+        let jump = presence.counted(k, p, local(&jumps[a][c * p..c * (p + 1)]));
         let damage = problem.interfaces[k].laws.at(p).damage(&own.state).unwrap_or(0.0);
         WaterPoint { jump, damage, damage_gradient: own.damage_gradient }
     };
-    let answer = water.answer(&problem.model, laws.load_factor, &point, true)?;
+    let answer = water.answer(&problem.model, load_factor, &point, true)?;
     // along a path of the load nothing follows a formula: pressures are affine in the load factor
     let by_load_factor = match by_load_factor {
         true => {

@@ -1,0 +1,165 @@
+//! Claim: a pattern in a step is the names that fit it, and the reaction of a pattern the sum over all its nodes, each counted once.
+
+use crate::common::*;
+use midplane::history::ModelState;
+use midplane::problem::Problem;
+use midplane::shape::Shape;
+
+const ELASTIC: &str = r#"{ "type": "elastic", "normal_stiffness": 1e5, "tangential_stiffness": 5e4 }"#;
+
+/// Three blocks on top of each other, each of 1 m × 0.5 m.
+fn tower(steps: &str, history: &str) -> midplane::error::Result<Problem> {
+    let text = format!(
+        r#"{{ "plane": "strain",
+          "subdomains": {{ "base": {{ "msh": "0", "material": "m" }}, "brick_1": {{ "msh": "1", "material": "m" }},
+                           "brick_2": {{ "msh": "2", "material": "m" }} }},
+          "materials": {{ "m": {{ "young": 1e4, "poisson": 0.2, "density": 2, "expansion": 1e-5 }} }},
+          "interfaces": {{ "j": {{ "between": ["*", "*"], "law": {ELASTIC} }} }},
+          "steps": [ {steps} ],
+          "output": {{ "history": {{ {history} }} }} }}"#
+    );
+    let block = |k: usize, n: usize| {
+        let y = 0.5 * k as f64;
+        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
+    };
+    bind(&text, vec![block(0, 4), block(1, 5), block(2, 3)])
+}
+
+fn last(steps: &str) -> (Problem, ModelState) {
+    let problem = tower(steps, "").unwrap();
+    let state = solve(&problem).0.pop().unwrap();
+    (problem, state)
+}
+
+#[test]
+fn a_pattern_is_the_names_that_fit_it() {
+    let explicit = r#"{ "name": "a", "fix": { "base.bottom": ["y"], "base.left": ["x"], "brick_1.left": ["x"], "brick_2.left": ["x"] },
+        "load": { "brick_1.right": { "traction": ["-y", 0] }, "brick_2.right": { "traction": ["-y", 0] } },
+        "body_force": { "brick_1": [0, -1], "brick_2": [0, -1] }, "gravity": { "base": [0, -3] },
+        "temperature": { "brick_1": 5, "brick_2": 5 }, "strain": { "base": [1e-5, 0, 0, 0], "brick_1": [2e-5, 0, 0, 0], "brick_2": [2e-5, 0, 0, 0] } },
+      { "name": "b", "hold": { "brick_1.right": ["x"], "brick_2.right": ["x"] }, "release": { "base.left": ["x"], "brick_1.left": ["x"], "brick_2.left": ["x"] } },
+      { "name": "c", "displace": { "brick_1.right": { "x": "1e-4*y" }, "brick_2.right": { "x": "1e-4*y" } } }"#;
+    let patterns = r#"{ "name": "a", "fix": { "base.bottom": ["y"], "*.left": ["x"] },
+        "load": { "brick_?.right": { "traction": ["-y", 0] } },
+        "body_force": { "brick*": [0, -1] }, "gravity": { "b*e": [0, -3] },
+        "temperature": { "br*": 5 }, "strain": { "base": [1e-5, 0, 0, 0], "*": [2e-5, 0, 0, 0] } },
+      { "name": "b", "hold": { "brick_*.r*t": ["x"] }, "release": { "*.left": ["x"] } },
+      { "name": "c", "displace": { "brick_?.right": { "x": "1e-4*y" } } }"#;
+    let ((_, one), (_, other)) = (last(explicit), last(patterns));
+    assert_eq!(one.snapshot.u, other.snapshot.u);
+    assert_eq!(one.reactions, other.reactions);
+    assert!(one.snapshot.u.iter().any(|u| u.abs() > 1e-6));
+}
+
+#[test]
+fn reactions_and_means_of_a_pattern_count_every_node_once() {
+    let steps = r#"{ "name": "a", "fix": { "base.bottom": ["x", "y"], "*.left": ["x"], "base.left": ["x"] },
+        "load": { "brick_2.right": { "traction": [-3, 0] } } }"#;
+    let history = r#""all": "reaction:*.left:x", "bottom": "reaction:base.bottom:x", "both": "reaction:base.*:x", "rest": "reaction:brick_*.left:x",
+        "mean": "*.right.displacement_x", "r1": "base.right.displacement_x", "r2": "brick_1.right.displacement_x",
+        "r3": "brick_2.right.displacement_x", "third": { "formula": "(r1 + r2 + r3)/3 - mean" },
+        "push": { "formula": "both + reaction_rest*load_factor" }"#;
+    let refused = tower(steps, history).unwrap_err().to_string();
+    assert!(refused.contains("unknown name \"reaction_rest\""), "{refused}");
+    let history = history.replace("both + reaction_rest*load_factor", "-(both*load_factor)");
+    let problem = tower(steps, &history).unwrap();
+    let columns = problem.columns();
+    assert!(columns.contains(&"reaction:*.left:x".into()), "{columns:?}");
+    for fields in ["every", "last", "none"] {
+        let mut problem = tower(&steps.replace("\"a\",", "\"a\", \"increments\": 8,"), &history).unwrap();
+        problem.fields = match fields {
+            "every" => midplane::scene::Fields::Every,
+            "last" => midplane::scene::Fields::Last,
+            _ => midplane::scene::Fields::None,
+        };
+        let (states, _) = solve(&problem);
+        for (k, state) in states.iter().enumerate() {
+            let load = 3.0 * 0.5 * (k + 1) as f64 / 8.0;
+            let values = state.probes(&problem);
+            let [all, bottom, both, rest, .., third, push] = values[..10] else { panic!("{values:?}") };
+            // the corner of base.left and base.bottom is a node of both
+            close(both + rest, load, 1e-9, 1.5, &format!("{fields}: all supports"));
+            assert!((all + bottom - load).abs() > 1e-3 * load, "{all} {bottom}");
+            close(third, 0.0, 1e-12, 1e-3, "mean of means of equal lengths");
+            close(push, -both * (k + 1) as f64 / 8.0, 1e-12, 1.0, "formula");
+        }
+    }
+}
+
+#[test]
+fn patterns_that_fit_nothing_or_twice_are_refused() {
+    for (steps, words) in [
+        (
+            r#""fix": { "bick_*.left": ["x"] }"#,
+            "no subdomain is called like \"bick_*\"; there is base, brick_1, brick_2. Did you mean",
+        ),
+        (
+            r#""fix": { "brick_*.lft": ["x"] }"#,
+            "no group is called like \"brick_*.lft\"; there is brick_1.bottom, brick_1.right",
+        ),
+        (
+            r#""load": { "*.side*": { "pressure": 1 } }"#,
+            "no curve is called like \"*.side*\"; there is base.",
+        ),
+        (
+            r#""load": { "*.top": { "pressure": 1 }, "brick_2.top": { "pressure": 2 } }"#,
+            "both load brick_2.top",
+        ),
+        (r#""gravity": { "*": [0, -1], "b*": [0, -2] }"#, "\"*\" and \"b*\" both fit base"),
+        (
+            r#""gravity": { "bas": [0, -1] }"#,
+            "no subdomain \"bas\"; there is base, brick_1, brick_2. Did you mean \"base\"?",
+        ),
+        (r#""gravity": 9.81"#, "expected two numbers or formulas such as [0, -9.81]"),
+    ] {
+        let fixed = r#""fix": { "base.bottom": ["x", "y"] },"#;
+        let fixed = if steps.contains("fix") { "" } else { fixed };
+        let text = format!(r#"{{ "name": "s", {fixed} {steps} }}"#);
+        let Err(message) = tower(&text, "") else { panic!("accepted: {steps}") };
+        let message = message.to_string();
+        assert!(message.contains(words), "{message}\n  should contain\n{words}");
+    }
+    for (probe, words) in [
+        ("j*.jump_n@0.5", "jump_n of a pattern; name one interface, or take max_jump_n"),
+        ("j*.mean_jump_n", "of a pattern; resultants, moment, uplift, lengths and max_"),
+        ("k*.resultant_n", "no interface is called like \"k*\""),
+        ("reaction:bas.left:x", "no subdomain \"bas\""),
+        ("reaction:base.left:z", "has no direction"),
+        (
+            "j~base~brick_1.jump_n",
+            "does not say where; add a fraction of the length from 0 to 1, such as jump_n@0.5, or take max_jump_n",
+        ),
+    ] {
+        let steps = r#"{ "name": "s", "fix": { "base.bottom": ["x", "y"] } }"#;
+        let message = tower(steps, &format!(r#""p": "{probe}""#)).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}\n  should contain\n{words}");
+    }
+}
+
+/// Claim: quantities of whole interfaces are sums, means and bounds over their law points, of a pattern over all of them.
+#[test]
+fn quantities_of_interfaces_are_those_of_their_law_points() {
+    let steps = r#"{ "name": "a", "fix": { "base.bottom": ["x", "y"] }, "load": { "brick_2.right": { "traction": ["1 + y", -3] } } }"#;
+    let history = r#""max": "j~base~brick_1.max_traction_n", "min": "j~base~brick_1.min_traction_n", "mean": "j~base~brick_1.mean_traction_n",
+        "most": "j*.max_traction_n", "n": "j*.resultant_n", "m": "j*.moment", "open": "j*.open_length", "cracked": "j*.cracked_length""#;
+    let problem = tower(steps, history).unwrap();
+    let state = solve(&problem).0.pop().unwrap();
+    let values = state.probes(&problem);
+    let tractions = |k: usize| state.snapshot.tractions[k].iter().map(|t| t[0]);
+    let weights = |k: usize| problem.model.interfaces[k].coupling.points.iter().map(|point| point.weight);
+    let k = problem.model.interfaces.iter().position(|own| own.name == "j~base~brick_1").unwrap();
+    let sum = |k: usize| tractions(k).zip(weights(k)).map(|(t, w)| t * w).sum::<f64>();
+    let largest = |k: usize| tractions(k).fold(f64::NEG_INFINITY, f64::max);
+    let expected = [
+        largest(k),
+        tractions(k).fold(f64::INFINITY, f64::min),
+        sum(k) / weights(k).sum::<f64>(),
+        largest(0).max(largest(1)),
+        sum(0) + sum(1),
+    ];
+    for (value, exact) in values.iter().zip(expected) {
+        close(*value, exact, 1e-12, 10.0, "quantity");
+    }
+    assert!(values[0] > values[2] && values[2] > values[1]);
+    assert_eq!(values[6..8], [0.0, 0.0]);
+}
