@@ -22,6 +22,7 @@ import meshio
 import numpy as np
 import pyvista
 
+import scene_file
 from energies import check_energies
 from joints import entry_of
 from statics import check_balance
@@ -399,7 +400,7 @@ def main():
     parser.add_argument("--expect", help=f"what is known of a value: {forms}", **known)
     arguments = parser.parse_args()
     faults = Faults()
-    scene = json.loads(arguments.scene.read_text())
+    scene = scene_file.read(arguments.scene)
     sentence = check(arguments.results, scene, arguments.energy, arguments.expect, faults)
     for fault in faults:
         print(fault, file=sys.stderr)

@@ -10,7 +10,6 @@ library for that (libosmesa6 or libegl1) only the graphs are drawn, and a line s
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -21,6 +20,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
 import page
+import scene_file
 from exact import SOLUTIONS
 from joints import entry_of, subdomains_of
 from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
@@ -288,7 +288,7 @@ def parse_arguments():
 def main():
     arguments = parse_arguments()
     units = argparse.Namespace(stress=arguments.units[0], length=arguments.units[1])
-    scene = json.loads(arguments.scene.read_text())
+    scene = scene_file.read(arguments.scene)
     title = scene.get("title") or arguments.results.name
     plt.rcParams.update(page.STYLE)
 

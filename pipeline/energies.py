@@ -16,6 +16,8 @@ import io
 import meshio
 import numpy as np
 
+import scene_file
+
 PROBES = ["work.external", "energy.stored", "energy.dissipated", "energy.released"]
 ROUND_OFF = 1e-9  # of the quantity compared
 TRAPEZOIDAL = 2e-3  # of the largest energy of the run: forces bend between two rows
@@ -30,7 +32,7 @@ def check_energies(path, scene, results, summary, rows, allowed, faults):
             f"{path}: row {number}, energies leave {left:.1e} of the largest, more than {allowed:g}",
         )
     said = f"energies to {max((abs(row['energy_balance']) for row in rows), default=0.0):.1e}"
-    columns = {probe: name for name, probe in scene.get("output", {}).get("history", {}).items()}
+    columns = {probe: name for name, probe in scene_file.probes(scene).items()}
     if not rows or any(probe not in columns for probe in PROBES):
         return said
     energies = np.array([[row[columns[probe]] for probe in PROBES] for row in rows])
@@ -48,7 +50,7 @@ def check_energies(path, scene, results, summary, rows, allowed, faults):
 def check_work(path, scene, results, summary, rows, energies, size, faults):
     """Work against the trapezoidal rule, both over `size`. Returns the largest difference, and of how many rows."""
     snaps = {snap["increment"] for snap in summary["solution"]["snaps"]}
-    columns = {probe: name for name, probe in scene["output"]["history"].items()}
+    columns = {probe: name for name, probe in scene_file.probes(scene).items()}
     gains = np.diff(energies, axis=0, prepend=0.0)
     off, worst, known = 0.0, 0.0, 0
     for number, (gain, done) in enumerate(zip(gains, increases(scene, results, rows, columns)), 1):

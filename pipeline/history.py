@@ -5,7 +5,6 @@ The columns, their labels and the exact solution (pipeline/exact.py) of a scene 
 
 import argparse
 import csv
-import json
 import sys
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import numpy as np
 
 import exact
 import page
+import scene_file
 from draw import Results
 from page import GREY, INK, PALE, RUNS
 
@@ -120,7 +120,7 @@ def main():
     within = "what the run may be off: an exact curve, of its size; another solution, in the last abscissa, relative"
     parser.add_argument("--within", type=float, help=within)
     arguments = parser.parse_args()
-    scene = json.loads(arguments.scene.read_text())
+    scene = scene_file.read(arguments.scene)
     plt.rcParams.update(page.STYLE)
 
     runs = [(arguments.label, read(arguments.results))]

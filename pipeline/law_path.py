@@ -10,7 +10,6 @@ of that interface scales the work of the surfaces (1 is G_I spent); without it t
 """
 
 import argparse
-import json
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -20,6 +19,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
 import page
+import scene_file
 from page import BLUE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, sign
 
 OPEN, TIED = 4, 6
@@ -48,7 +48,7 @@ def read(csv):
 
 def energy_i(scene, interface):
     """Fracture energy in mode I of an interface of a scene, None where there is none."""
-    interfaces = json.loads(Path(scene).read_text())["interfaces"]
+    interfaces = scene_file.read(Path(scene))["interfaces"]
     if interface not in interfaces:
         raise SystemExit(f"{scene}: no interface \"{interface}\"; there is {', '.join(interfaces)}")
     return interfaces[interface]["law"].get("fracture_energy_i")

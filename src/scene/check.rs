@@ -266,12 +266,12 @@ impl Scene {
     /// Gravity acts on a density.
     fn check_gravity(&self, index: &str, step: &Step) -> Result<()> {
         let Some(gravity) = &step.gravity else { return Ok(()) };
-        if let Gravity::Parts(parts) = gravity {
-            for name in parts.keys().filter(|name| !self.subdomains.contains_key(*name)) {
-                let help = name_help(name, self.subdomains.keys().map(String::as_str));
-                let path = ["steps", index, "gravity", name];
-                return Err(self.source.error_at(&path, format!("no subdomain \"{name}\""), help));
-            }
+        if let Gravity::Parts(parts) = gravity
+            && let Some(name) = parts.keys().find(|name| !self.subdomains.contains_key(*name))
+        {
+            let help = name_help(name, self.subdomains.keys().map(String::as_str));
+            let path = ["steps", index, "gravity", name];
+            return Err(self.source.error_at(&path, format!("no subdomain \"{name}\""), help));
         }
         let pulled = self.subdomains.iter().filter(|(name, _)| gravity.of(name).is_some());
         let mut names: Vec<&str> = pulled.map(|(_, part)| part.material.as_str()).collect();
