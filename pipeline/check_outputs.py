@@ -40,6 +40,7 @@ INTERFACE_POINTS = {
 }
 WATER_POINTS = {"pressure": 1, "traction_total": 2}
 FLOW_POINTS = {"rate": 1, "hydraulic_aperture": 1}
+FIELD_DATA = ["TimeValue", "step", "load_factor", "energy_stored", "energy_dissipated", "energy_released", "work_external"]
 MIDPLANE_POINTS = {"arc_length": 1}
 MIDPLANE_CELLS = {"kind": 1, "edge_a": 1, "edge_b": 1}
 
@@ -93,6 +94,8 @@ def read_twice(path, faults):
                 same = np.array_equal(values.ravel(), theirs[name].ravel(), equal_nan=True)
                 faults.expect(same, f"{path}: meshio and VTK read different {place} {name}")
     faults.expect(np.isfinite(grid.points).all(), f"{path}: a point is not finite")
+    missing = [name for name in FIELD_DATA if grid.field_data.get(name) is None] if "fields" in path.parts else []
+    faults.expect(not missing, f"{path}: no field data {missing}")
     return grid
 
 
@@ -274,12 +277,14 @@ def read_history(path, scene, faults):
 
 def collection(path, faults):
     """The files that the .pvd names, which must be all there are in fields/."""
-    named, last = [], -np.inf
+    named, last = [], 0.0
     for dataset in ElementTree.parse(path).iter("DataSet"):
         named.append(dataset.get("file"))
         time = float(dataset.get("timestep"))
-        faults.expect(time >= last, f"{path}: time goes back at {named[-1]}")
-        last = max(last, time)
+        # the number of the row, whatever the load does
+        row = int(Path(named[-1]).stem.rpartition("_")[2])
+        faults.expect(time == row and time >= last, f"{path}: time {time:g} at {named[-1]}")
+        last = time
     present = {f"fields/{file.name}" for file in path.parent.glob("fields/*")}
     faults.expect(len(named) == len(set(named)), f"{path}: names a file twice")
     faults.expect(set(named) == present, f"{path}: names and files differ: {sorted(set(named) ^ present)}")

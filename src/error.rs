@@ -167,9 +167,12 @@ pub fn name_help<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>)
     }
     let close = names
         .iter()
-        .map(|name| (strsim::damerau_levenshtein(wanted, name), name))
+        .map(|name| (strsim::damerau_levenshtein(&wanted.to_lowercase(), &name.to_lowercase()), name))
         .min_by_key(|(distance, _)| *distance)
-        .filter(|(distance, name)| *distance <= 1 + name.chars().count() / 3);
+        .filter(|(distance, name)| {
+            let length = name.chars().count();
+            *distance <= 1 + length / 3 && *distance < length
+        });
     let mut help = format!("there is {}", names.join(", "));
     if let Some((_, name)) = close {
         help.push_str(&format!(". Did you mean \"{name}\"?"));

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::assembly::InterfaceOperator;
 use crate::error::Warning;
-use crate::history::{Operations, StageNow, Totals, memory::gigabytes};
+use crate::history::{Operations, PartNow, StageNow, Totals, memory::gigabytes};
 use crate::output::HistoryRow;
 use crate::run::{Event, RunDone};
 use crate::solver::Method;
@@ -37,7 +37,12 @@ impl Show {
             (&self.bar, self.stage.clone(), ProgressStyle::with_template(template))
         {
             let name = move |_: &ProgressState, text: &mut dyn std::fmt::Write| {
-                let _ = text.write_str(stage.name()); // a bar that cannot be drawn is no loss
+                // a bar that cannot be drawn is no loss
+                let _ = text.write_str(stage.name());
+                let PartNow { load_factor, parts, iterations } = stage.part();
+                if parts > 0 {
+                    let _ = write!(text, " at {load_factor:.4}, {parts} parts, {iterations} iterations");
+                }
             };
             bar.set_style(style.with_key("stage", name));
         }

@@ -1,6 +1,6 @@
 //! Time by stage of a run.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 /// Seconds by stage, in the order the stages first began.
@@ -12,18 +12,40 @@ pub struct Clock {
     stages: Vec<(&'static str, f64)>,
 }
 
-/// The stage under way, for whoever shows it beside the run.
+/// The stage under way, for whoever shows it beside the run, and how far the increment has come.
 #[derive(Debug, Clone)]
-pub struct StageNow(Arc<Mutex<&'static str>>);
+pub struct StageNow(Arc<Mutex<Stage>>);
+
+#[derive(Debug, Clone, Copy)]
+struct Stage {
+    name: &'static str,
+    part: PartNow,
+}
+
+/// Position within an increment.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PartNow {
+    /// Load factor in the step.
+    pub load_factor: f64,
+    /// Parts of the increment so far.
+    pub parts: usize,
+    /// Iterations of the increment so far.
+    pub iterations: usize,
+}
 
 impl StageNow {
     /// Its name.
     pub fn name(&self) -> &'static str {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.lock().name
     }
 
-    fn begin(&self, stage: &'static str) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+    /// How far the increment has come.
+    pub fn part(&self) -> PartNow {
+        self.lock().part
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Stage> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -31,6 +53,7 @@ impl Clock {
     /// Starts with a stage.
     pub fn new(stage: &'static str) -> Clock {
         let now = Instant::now();
+        let stage = Stage { name: stage, part: PartNow::default() };
         let current = StageNow(Arc::new(Mutex::new(stage)));
         Clock { start: now, since: now, current, stages: Vec::new() }
     }
@@ -45,7 +68,12 @@ impl Clock {
             None => self.stages.push((ended, seconds)),
         }
         self.since = now;
-        self.current.begin(stage);
+        *self.current.lock() = Stage { name: stage, part: PartNow::default() };
+    }
+
+    /// Tells how far an increment has come.
+    pub fn tell(&self, part: PartNow) {
+        self.current.lock().part = part;
     }
 
     /// The stage under way.

@@ -44,7 +44,7 @@ mod water_loads;
 
 pub use balance::{Resultant, resultant};
 pub use beyond::Beyond;
-pub use clock::{Clock, StageNow, processor};
+pub use clock::{Clock, PartNow, StageNow, processor};
 pub use equilibrium::strategy::Operations;
 pub use equilibrium::{Equations, Means};
 pub use increment::Increment;

@@ -10,6 +10,7 @@
 //! A part that is kept is an equilibrium of the laws, and so is the end of every increment.
 
 use super::analysis::Analysis;
+use super::clock::PartNow;
 use super::energy::carried;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::unusable;
@@ -41,7 +42,10 @@ pub(super) fn advance(
     at: &mut StepProgress,
 ) -> Result<Outcome<usize>> {
     let (mut iterations, mut failed, mut cut) = (0, 0, false);
+    let before = analysis.totals.parts;
     while at.load_factor < leg.goal {
+        let parts = analysis.totals.parts - before;
+        analysis.clock.tell(PartNow { load_factor: at.load_factor, parts, iterations });
         let from = at.load_factor;
         let to = if from + 1.001 * at.width >= leg.goal { leg.goal } else { from + at.width };
         let load = leg.start.at(to)?;

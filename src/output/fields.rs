@@ -1,7 +1,7 @@
 //! Bodies and interfaces as VTU grids.
 
-use super::Snapshot;
 use super::vtu::{Array, Data, VtuGrid};
+use super::{RowData, Snapshot};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::continuum::principal;
 use crate::coupling::Piece;
@@ -9,13 +9,13 @@ use crate::law::{self, LawVariable, Local, N, State};
 use crate::problem::PointLaws;
 
 /// A body: displacement, stress at points and cells, principal stress.
-pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: f64) -> VtuGrid {
+pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, row: &RowData) -> VtuGrid {
     let subdomain = &model.subdomains[index];
     let u = &snapshot.u[model.dofs_of(index)];
     let stresses = &snapshot.stresses[index];
     let full = |s: &[f64; 4]| [s[0], s[1], s[2], s[3], 0.0, 0.0]; // xx yy zz xy yz xz
     let mut grid = mesh(subdomain);
-    grid.time = time;
+    grid.field_data = field_data(row);
     grid.point_data = vec![
         Array::float(
             "displacement",
@@ -41,6 +41,18 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, time: 
     grid
 }
 
+/// Time, step, load factor and energies of a row.
+fn field_data(row: &RowData) -> Vec<Array> {
+    let names = ["energy_stored", "energy_dissipated", "energy_released", "work_external"];
+    let mut all = vec![
+        Array::float("TimeValue", 1, [row.row as f64]),
+        Array::int("step", [row.step as i64]),
+        Array::float("load_factor", 1, [row.load_factor]),
+    ];
+    all.extend(names.into_iter().zip(row.energies).map(|(name, energy)| Array::float(name, 1, [energy])));
+    all
+}
+
 pub(super) fn mesh(subdomain: &BoundSubdomain) -> VtuGrid {
     let cells = &subdomain.mesh.cells;
     VtuGrid {
@@ -60,7 +72,7 @@ pub(super) fn interface(
     [pressure, flow]: [bool; 2],
     index: usize,
     snapshot: &Snapshot,
-    time: f64,
+    row: &RowData,
 ) -> VtuGrid {
     let points = &interface.coupling.points;
     let n = points.len();
@@ -123,7 +135,7 @@ pub(super) fn interface(
         offsets: (1..=lines.len() as i64).map(|i| 2 * i).collect(),
         types: vec![3; lines.len()],
         point_data,
-        time,
+        field_data: field_data(row),
         ..VtuGrid::default()
     }
 }

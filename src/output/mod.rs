@@ -39,6 +39,19 @@ pub struct Snapshot {
     pub water: WaterFields,
 }
 
+/// What a row says beside its fields: field data of every file.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RowData {
+    /// Number of the row over all steps, 0 for the unloaded state: the time of its files.
+    pub row: usize,
+    /// Number of the step, from 1; 0 before the first.
+    pub step: usize,
+    /// Load factor in it.
+    pub load_factor: f64,
+    /// Elastic energy, dissipated energy, energy released by snaps and external work so far [force × length].
+    pub energies: [f64; 4],
+}
+
 /// Parts that are there, where some come and go; empty where all are there, always.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Presence {

@@ -42,8 +42,8 @@ pub(super) struct VtuGrid {
     pub types: Vec<u8>,
     pub point_data: Vec<Array>,
     pub cell_data: Vec<Array>,
-    /// Time of the state.
-    pub time: f64,
+    /// Scalars of the whole grid.
+    pub field_data: Vec<Array>,
 }
 
 impl Array {
@@ -120,7 +120,7 @@ impl VtuGrid {
     pub(super) fn encode(self) -> Vec<u8> {
         let (n_points, n_cells) = (self.points.len() / 3, self.types.len());
         let mut draft = Draft { text: vec![HEAD.into()], blocks: Vec::new() };
-        draft.add(Array::float("TimeValue", 1, [self.time]), " NumberOfTuples=\"1\"");
+        self.field_data.into_iter().for_each(|array| draft.add(array, " NumberOfTuples=\"1\""));
         draft.write(&format!(
             "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"
         ));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Snapshot, earlier, fields, files, pvd};
+use super::{RowData, Snapshot, earlier, fields, files, pvd};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
 use crate::law::LawVariable;
@@ -17,7 +17,7 @@ use crate::problem::Problem;
 pub struct Writer {
     folder: PathBuf,
     name: String,
-    collection: Vec<(f64, String, String)>,
+    collection: Vec<(usize, String, String)>,
     history: String,
 }
 
@@ -64,7 +64,8 @@ impl Writer {
     }
 
     /// Writes the fields of one state and lists them in the collection.
-    pub fn fields(&mut self, problem: &Problem, snapshot: &Snapshot, number: usize, time: f64) -> Result<()> {
+    pub fn fields(&mut self, problem: &Problem, snapshot: &Snapshot, row: &RowData) -> Result<()> {
+        let number = row.row;
         let Problem { model, interfaces, .. } = problem;
         let names = model
             .subdomains
@@ -76,17 +77,17 @@ impl Writer {
         let variables: Vec<&LawVariable> = problem.variables().collect();
         names.par_iter().enumerate().try_for_each(|(i, name)| {
             let grid = if i < subdomains {
-                fields::subdomain(model, i, snapshot, time)
+                fields::subdomain(model, i, snapshot, row)
             } else {
                 let k = i - subdomains;
                 let water = problem.water_in(k);
                 let laws = &interfaces[k].laws;
-                fields::interface(&model.interfaces[k], (laws, &variables), water, k, snapshot, time)
+                fields::interface(&model.interfaces[k], (laws, &variables), water, k, snapshot, row)
             };
             files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
         })?;
         for name in names {
-            self.collection.push((time, name.clone(), file_name(name, number)));
+            self.collection.push((number, name.clone(), file_name(name, number)));
         }
         let text = pvd::collection(&self.collection);
         files::write_whole(&self.folder.join(format!("{}.pvd", self.name)), text.as_bytes())

@@ -4,7 +4,7 @@ use super::folder::Folder;
 use super::summary::{self, Balance};
 use crate::error::{Error, Result};
 use crate::history::{Clock, Increment, ModelState, Totals};
-use crate::output::{HistoryRow, Writer};
+use crate::output::{HistoryRow, RowData, Writer};
 use crate::problem::Problem;
 use crate::scene::{Fields, Scene};
 
@@ -51,8 +51,13 @@ impl<'a> Results<'a> {
             Fields::None => false,
         };
         if wanted && self.stored < increment.increment {
-            let time = increment.step_number as f64 + increment.load_factor;
-            writer.fields(problem, &state.snapshot, increment.increment, time)?;
+            let row = RowData {
+                row: increment.increment,
+                step: increment.step_number + 1,
+                load_factor: increment.load_factor,
+                energies: [state.stored, state.dissipated, state.released, state.work],
+            };
+            writer.fields(problem, &state.snapshot, &row)?;
             self.stored = increment.increment;
         }
         if !state.force.is_empty() {
@@ -81,7 +86,7 @@ impl<'a> Results<'a> {
         let mut writer = Writer::create(self.folder.path(), self.name, &self.problem.columns())?;
         writer.midplanes(&self.problem.model)?;
         if matches!(self.scene.output.fields, Fields::Every | Fields::Step) {
-            writer.fields(self.problem, &state.snapshot, 0, 0.0)?;
+            writer.fields(self.problem, &state.snapshot, &RowData::default())?;
         }
         self.writer = Some(writer);
         Ok(())
