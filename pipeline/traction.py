@@ -35,7 +35,8 @@ def draw_traction(results, name, law, label, others, exact, title, units):
         do_not_magnify_round_off(axis, size)
     if law["type"] == "coulomb":
         draw_limit(axes[1], results, name, law)
-    axes[1].set(xlabel=f"distance along {name} [{units.length}]")
+    start, end = (f"({points[at][0]:.4g}, {points[at][1]:.4g})" for at in (segments[0, 0], segments[-1, 1]))
+    axes[1].set(xlabel=f"distance along {name} [{units.length}], from @0 at {start} to @1 at {end}")
     handles = {line.get_label(): line for axis in axes for line in axis.get_legend_handles_labels()[0]}
     if len(handles) > 1:
         page.key_below(figure, list(handles.values()))

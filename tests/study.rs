@@ -54,6 +54,36 @@ fn number(row: &HashMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: {:?}", row[column]))
 }
 
+/// Claim: a study of limit loads measures the load factor at which nothing holds any more, and counts no such point as failed.
+#[test]
+fn a_limit_load_is_reached_and_has_not_failed() {
+    let strip = Strip::new(
+        r#"{ "axes": { "mu": { "key": "interfaces.joint.law.friction_coefficient", "values": [0.3, 0.6, 1.2] } },
+             "measures": { "limit": { "take": "reached", "reference": 0.3 } } }"#,
+    );
+    let scene = r#"{ // two blocks that slide on each other
+        "plane": "strain",
+        "subdomains": { "lower": { "geo": "lower.geo", "material": "m" }, "upper": { "geo": "upper.geo", "material": "m" } },
+        "materials": { "m": { "young": 1e4, "poisson": 0 } },
+        "interfaces": { "joint": { "side_a": "lower.top", "side_b": "upper.bottom", "law": { "type": "coulomb",
+            "normal_stiffness": 1e6, "tangential_stiffness": 1e6, "friction_coefficient": 0.5 } } },
+        "steps": [
+            { "name": "press", "fix": { "lower.bottom": ["x", "y"] }, "load": { "upper.top": { "traction": [0, -2] } } },
+            { "name": "push", "increments": 10, "load": { "upper.left": { "traction": [3.3333333333333335, 0] } } } ],
+        "output": { "fields": "none" } }"#;
+    std::fs::write(strip.path("scene.json"), scene).unwrap();
+    let said = strip.study("out", &[]);
+    assert!(said.contains("3 points, 0 of them failed"), "{said}");
+    let rows = strip.table("out");
+    for (row, mu) in rows.iter().zip([0.3, 0.6, 1.0]) {
+        let (limit, reached) = (number(row, "limit"), number(row, "reached"));
+        assert_eq!(limit, reached);
+        assert!((limit - mu).abs() < 0.1 && limit <= mu + 1e-9, "{limit} of {mu}: {row:?}");
+        assert_eq!(row["status"], if mu < 1.0 { "limit" } else { "done" });
+    }
+    assert!(number(&rows[0], "limit.error") < 0.2);
+}
+
 const AXES: &str = r#""axes": {
     "lower": { "parameter": "lower.edges", "values": [4, 6, 8] },
     "upper": { "parameter": "upper.edges", "range": [5, 9], "count": 2, "whole": true } }"#;

@@ -55,6 +55,14 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
             survey.stiffness_number
         ));
     }
+    if !model.interfaces.is_empty() {
+        show.line(format!("{:<width$} {:<30} {:<30}", "ends of", "@0", "@1").trim_end());
+    }
+    for (interface, bound) in model.interfaces.iter().zip(&problem.interfaces) {
+        let [start, end] =
+            Survey::of(model, interface, &bound.laws).ends.map(|[x, y, _]| format!("({x:.4}, {y:.4})"));
+        show.line(&format!("{:<width$} {start:<30} {end}", interface.name));
+    }
     flow(show, problem, width);
     let constrained = problem
         .steps
@@ -76,7 +84,7 @@ fn flow(show: &Show, problem: &Problem, width: usize) {
         }
         show.line(&format!(
             "{:<width$} {:<30} {:<30} between, step \"{}\"",
-            "flow along", "s = 0", "s = 1", step.name
+            "flow along", "@0", "@1", step.name
         ));
         for along in &lines {
             let end = |end: usize| {

@@ -14,10 +14,10 @@ pub struct Clock {
 
 /// The stage under way, for whoever shows it beside the run, and how far the increment has come.
 #[derive(Debug, Clone)]
-pub struct StageNow(Arc<Mutex<Stage>>);
+pub struct StageNow(Arc<Mutex<ClockStage>>);
 
 #[derive(Debug, Clone, Copy)]
-struct Stage {
+struct ClockStage {
     name: &'static str,
     part: PartNow,
 }
@@ -39,12 +39,12 @@ impl StageNow {
         self.lock().name
     }
 
-    /// How far the increment has come.
+    /// Position within the increment.
     pub fn part(&self) -> PartNow {
         self.lock().part
     }
 
-    fn lock(&self) -> MutexGuard<'_, Stage> {
+    fn lock(&self) -> MutexGuard<'_, ClockStage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -53,7 +53,7 @@ impl Clock {
     /// Starts with a stage.
     pub fn new(stage: &'static str) -> Clock {
         let now = Instant::now();
-        let stage = Stage { name: stage, part: PartNow::default() };
+        let stage = ClockStage { name: stage, part: PartNow::default() };
         let current = StageNow(Arc::new(Mutex::new(stage)));
         Clock { start: now, since: now, current, stages: Vec::new() }
     }
@@ -68,10 +68,10 @@ impl Clock {
             None => self.stages.push((ended, seconds)),
         }
         self.since = now;
-        *self.current.lock() = Stage { name: stage, part: PartNow::default() };
+        *self.current.lock() = ClockStage { name: stage, part: PartNow::default() };
     }
 
-    /// Tells how far an increment has come.
+    /// Tells the position within an increment.
     pub fn tell(&self, part: PartNow) {
         self.current.lock().part = part;
     }

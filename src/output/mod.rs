@@ -39,7 +39,7 @@ pub struct Snapshot {
     pub water: WaterFields,
 }
 
-/// What a row says beside its fields: field data of every file.
+/// Data of a row beside its fields: field data of every file.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RowData {
     /// Number of the row over all steps, 0 for the unloaded state: the time of its files.

@@ -7,7 +7,7 @@ use crate::shape::Ends;
 use crate::shape::vector::{dot, minus, norm, plus};
 use crate::water::{FlowLine, Interval, Station};
 
-/// Ends meet within this part of the longer interval beside them, as boundaries do in `between`.
+/// Two ends meet within this part of the longer interval beside them, as boundaries do in `between`.
 const MEET: f64 = 1e-3;
 /// Stations of a line that are nearer than this part of its length are one.
 pub(super) const SAME: f64 = 1e-9;
@@ -108,8 +108,8 @@ impl StatedFlow<'_> {
     }
 }
 
-/// Ends of the intervals of an interface, in order.
-fn spans(operator: &InterfaceOperator) -> Vec<(Ends, [[f64; 3]; 2])> {
+/// The intervals of an interface in order: arc lengths and places of their ends.
+pub(super) fn spans(operator: &InterfaceOperator) -> Vec<(Ends, [[f64; 3]; 2])> {
     let midplane = &operator.coupling.midplane;
     match midplane.cells.is_empty() {
         true => midplane.segments.iter().map(|segment| (segment.s, segment.places)).collect(),

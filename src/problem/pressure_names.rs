@@ -1,4 +1,4 @@
-//! Which interfaces the keys of `load` name, and whose pressure depends on their jumps.
+//! Names of interfaces in the keys of `load`, and pressures that depend on jumps.
 
 use wildmatch::WildMatch;
 

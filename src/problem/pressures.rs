@@ -17,7 +17,7 @@ use super::BoundInterface;
 pub(super) enum Stated<'a> {
     /// Imposed.
     Imposed(Quantity),
-    /// That of flow; the key of the load, for messages.
+    /// The pressure of flow; the key of the load, for messages.
     Flow(&'a Flow, String),
 }
 
@@ -69,7 +69,7 @@ pub(super) fn stated<'a>(
     Ok(found.into_iter().map(|own| own.map(|(_, stated)| stated)).collect())
 }
 
-/// Those of them that are loads of their own: numbers and formulas that do not depend on jumps, of interfaces where none does.
+/// Pressures that are loads of their own: numbers and formulas that do not depend on jumps, of interfaces where none does.
 pub(super) fn loads<'a>(
     model: &'a Model,
     interfaces: &'a [BoundInterface],

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use wildmatch::WildMatch;
 
+use super::flow_lines::spans;
 use super::joint_probes::joint_value;
 use super::probe_input::ProbeInput;
 use super::{groups, supports};
@@ -23,7 +24,7 @@ pub enum BoundProbe {
         /// Which field.
         field: JointField,
         /// Law points and their weights.
-        points: [(usize, f64); 2],
+        points: Vec<(usize, f64)>,
     },
     /// A quantity of whole interfaces.
     Joints {
@@ -130,15 +131,30 @@ fn fitting(scene: &Scene, model: &Model, path: &[&str], pattern: &str) -> Result
     Ok(found)
 }
 
-/// The two law points around a fraction of the length; beyond the outermost points the value of the nearest.
-fn around(interface: &InterfaceOperator, fraction: f64) -> [(usize, f64); 2] {
+/// The two law points around a fraction of the length; beyond the outermost ones the polynomial through the points of the interval
+/// there.
+fn around(interface: &InterfaceOperator, fraction: f64) -> Vec<(usize, f64)> {
     let points = &interface.coupling.points;
     let s = fraction * interface.coupling.midplane.length;
+    let each = points.len() / spans(interface).len();
+    let last = points.len() - 1;
+    let outer = match s {
+        s if s < points[0].s => Some(0..each),
+        s if s > points[last].s => Some(last + 1 - each..last + 1),
+        _ => None,
+    };
+    if let Some(outer) = outer {
+        let weight = |p: usize| {
+            let others = outer.clone().filter(|other| *other != p);
+            others.map(|other| (s - points[other].s) / (points[p].s - points[other].s)).product::<f64>()
+        };
+        return outer.clone().map(|p| (p, weight(p))).collect();
+    }
     let after = points.partition_point(|point| point.s < s).min(points.len() - 1);
     let before = after.saturating_sub(1);
     let (s0, s1) = (points[before].s, points[after].s);
     let share = if s1 > s0 { ((s - s0) / (s1 - s0)).clamp(0.0, 1.0) } else { 0.0 };
-    [(before, 1.0 - share), (after, share)]
+    vec![(before, 1.0 - share), (after, share)]
 }
 
 impl BoundProbe {

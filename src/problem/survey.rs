@@ -1,6 +1,7 @@
 //! The geometry of an interface in numbers, as `midplane check` and summary.json have it.
 
 use super::PointLaws;
+use super::flow_lines::line_ends;
 use super::stiffness::stiffness_number;
 use crate::assembly::{InterfaceOperator, Model};
 use crate::coupling::Coupling;
@@ -27,6 +28,8 @@ pub struct Survey {
     pub kink: f64,
     /// K_N h/E.
     pub stiffness_number: f64,
+    /// Places of its start and end, `@0` and `@1`.
+    pub ends: [[f64; 3]; 2],
 }
 
 impl Survey {
@@ -51,6 +54,7 @@ impl Survey {
             gap: coupling.midplane.gap,
             kink: kink[0].max(kink[1]).to_degrees(),
             stiffness_number: stiffness_number(model, interface, laws),
+            ends: line_ends(interface).map(|end| end.place),
         }
     }
 

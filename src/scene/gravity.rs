@@ -20,7 +20,7 @@ pub enum Gravity {
 }
 
 impl Gravity {
-    /// That of a subdomain, if the step states it.
+    /// The acceleration of a subdomain, if the step states it.
     pub fn of(&self, subdomain: &str) -> Option<&[Value; 2]> {
         match self {
             Gravity::Everywhere(values) => Some(values),

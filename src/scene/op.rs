@@ -117,7 +117,7 @@ impl Variable {
     ];
     /// Coordinates.
     pub const OF_PLACES: [Variable; 3] = [Variable::X, Variable::Y, Variable::Z];
-    /// Those that only the pressure in an interface has.
+    /// Variables that only the pressure in an interface has.
     pub const OF_INTERFACES: [Variable; 2] = [Variable::Opening, Variable::Damage];
 
     /// Its name in a formula.

@@ -78,7 +78,7 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
     Ok(())
 }
 
-/// Why a name that is not there cannot be made at a path, and what there is: parts, materials and interfaces are stated in the file,
+/// The refusal of a name that is not there and cannot be made at a path, with what there is: parts, materials and interfaces are stated in the file,
 /// and what a step acts on belongs to one of them.
 fn unknown(known: &HashMap<&str, Vec<String>>, path: &[String], name: &str) -> Option<(String, String)> {
     let path: Vec<&str> = path.iter().map(String::as_str).collect();

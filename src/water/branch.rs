@@ -20,7 +20,7 @@ pub(super) struct FlowBranch {
 pub(super) struct PointOnBranch {
     pub point: usize,
     pub part: f64,
-    /// How many of the branch's derivatives stand for intervals before it.
+    /// Number of the branch's derivatives that stand for intervals before it.
     pub before: usize,
     pub own: Vec<(usize, f64)>,
 }

@@ -13,7 +13,7 @@ pub struct Element {
     pub state: Contact,
 }
 
-/// What the faces of an element do.
+/// Contact of the faces of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Contact {
     /// Open under a pressure that does not depend on it.
