@@ -284,6 +284,19 @@ mod tests {
     }
 
     #[test]
+    fn a_byte_order_mark_and_comments_keep_positions() {
+        let twice = "\"upper\": {";
+        for (from, to, expected) in [
+            ("\"young\": 1.0e4", "\"young\": -1.0", "scene.json:8 materials.rock.young"),
+            (twice, "\"lower\": {", "scene.json:6 subdomains.lower: the key \"lower\" occurs twice"),
+        ] {
+            let text = format!("\u{feff}// a note\n{}", SCENE.replacen(from, to, 1));
+            let error = parsed("scene.json".into(), text, &[]).unwrap_err();
+            assert!(error.to_string().contains(expected), "{error}\n  should contain\n{expected}");
+        }
+    }
+
+    #[test]
     fn no_text_makes_the_door_panic() {
         for n in 0..SCENE.len() {
             let _ = parsed("scene.json".into(), SCENE[..n].to_string(), &[]);

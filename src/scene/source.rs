@@ -8,6 +8,7 @@ use jsonc_parser::{
     common::Ranged,
 };
 
+use super::plain::plain;
 use crate::error::{At, Error};
 
 /// The text of the scene and the place of every key in it.
@@ -22,11 +23,11 @@ pub struct Source {
 }
 
 impl Source {
-    /// Indexes a text that is valid JSON.
+    /// Indexes a text that is valid JSON, but for a byte order mark and comments.
     pub(super) fn new(file: PathBuf, text: String) -> Source {
         let mut source = Source { file, text, ..Source::default() };
-        let options = CollectOptions::default();
-        if let Ok(parsed) = jsonc_parser::parse_to_ast(&source.text, &options, &ParseOptions::default())
+        let (plain, options) = (plain(&source.text), CollectOptions::default());
+        if let Ok(parsed) = jsonc_parser::parse_to_ast(&plain, &options, &ParseOptions::default())
             && let Some(root) = parsed.value
         {
             let (mut places, mut duplicate) = (HashMap::new(), None);
