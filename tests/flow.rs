@@ -216,7 +216,7 @@ fn water_opens_its_own_way() {
             parts,
         )
         .unwrap();
-        let (states, totals) = solve(&problem);
+        let (states, _) = solve(&problem);
         let state = &states[0];
         assert!(*state.residuals.last().unwrap() < 1e-12, "{:?}", state.residuals);
         // later passes take up what rounding has left of so thin a strip
@@ -239,7 +239,6 @@ fn water_opens_its_own_way() {
             error = error.max((jump[0] / exact - 1.0).abs());
         }
         errors.push(error);
-        assert!(totals.energy_balance.is_finite());
     }
     assert!(errors[2] < 2e-3 && errors[0] > 3.0 * errors[1] && errors[1] > 3.0 * errors[2], "{errors:?}");
 }

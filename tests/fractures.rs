@@ -8,7 +8,7 @@
 //! ```
 
 use crate::common::*;
-use midplane::mesh::{Facet, Gmsh, Group, Job, Mesh, mesh_all, read};
+use midplane::mesh::{Facet, Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
@@ -157,15 +157,6 @@ fn what_cannot_be_opened_is_refused() {
         let message = bind(&one_body(SPRINGS, stated), vec![mesh()]).unwrap_err().to_string();
         assert!(message.contains(expected), "{message}\n  should contain\n{expected}");
     }
-}
-
-/// A mesh of a geometry.
-fn meshed(geo: &str) -> Mesh {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("body.geo");
-    std::fs::write(&path, geo).unwrap();
-    let job = Job { name: "body".into(), geo: path, parameters: Vec::new() };
-    read(&mesh_all(&Gmsh::default(), folder.path(), &[job]).unwrap().remove(0).path).unwrap()
 }
 
 /// Crack of half-length b = 1 m at ψ = 20° to a pressure of 100 MPa, friction angle 30°, in a plate of 60 b:

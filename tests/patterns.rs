@@ -163,3 +163,26 @@ fn quantities_of_interfaces_are_those_of_their_law_points() {
     assert!(values[0] > values[2] && values[2] > values[1]);
     assert_eq!(values[6..8], [0.0, 0.0]);
 }
+
+#[test]
+fn names_may_have_spaces() {
+    let work = |upper: &str, joint: &str| {
+        let text = format!(
+            r#"{{ "plane": "strain",
+              "subdomains": {{ "base": {{ "msh": "0", "material": "m" }}, "{upper}": {{ "msh": "1", "material": "m" }} }},
+              "materials": {{ "m": {{ "young": 1e4, "poisson": 0.2 }} }},
+              "interfaces": {{ "{joint}": {{ "side_a": "base.top", "side_b": "{upper}.bottom", "law": {ELASTIC} }} }},
+              "steps": [ {{ "name": "a", "fix": {{ "base.bottom": ["x", "y"] }}, "load": {{ "{upper}.top": {{ "traction": [0, -3] }} }} }} ],
+              "output": {{ "history": {{ "n": "{joint}.traction_n@0.5", "r": "reaction:base.bottom:y",
+                                         "u": "{upper}.top.displacement_y" }} }} }}"#
+        );
+        let block = |y: f64| {
+            rectangle(&even(0.0, 1.0, 3), &even(y, y + 0.5, 2), Shape::Quadrilateral4, |x, y| [x, y])
+        };
+        let problem = bind(&text, vec![block(0.0), block(0.5)]).unwrap();
+        solve(&problem).0.pop().unwrap().probes(&problem)
+    };
+    let spaced = work("upper part", "bed joint");
+    assert!((spaced[1] - 3.0).abs() < 1e-10, "{spaced:?}");
+    assert_eq!(spaced, work("upper", "joint"));
+}

@@ -10,16 +10,8 @@
 use crate::common::boundary::{Contact, Element, Found, Plane, elements};
 use crate::common::*;
 use midplane::history::ModelState;
-use midplane::mesh::{Gmsh, Job, Mesh, mesh_all, read};
+use midplane::mesh::Mesh;
 use midplane::problem::Problem;
-
-fn meshed(geo: &str) -> Mesh {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("plate.geo");
-    std::fs::write(&path, geo).unwrap();
-    let job = Job { name: "plate".into(), geo: path, parameters: Vec::new() };
-    read(&mesh_all(&Gmsh::default(), folder.path(), &[job]).unwrap().remove(0).path).unwrap()
-}
 
 /// A square plate of half width w around fractures between points from number 5 on.
 fn plate(w: f64, far: f64, fractures: &str) -> Mesh {

@@ -98,18 +98,14 @@ fn a_pressure_is_what_the_effective_traction_lacks_to_the_total() {
         }
     }
     // the second step ramps from 1.2 to a formula of the place, the third to nothing: totals stay
-    let (states, _) = {
-        let problem = blocks(ELASTIC, "", &steps).unwrap();
-        let (states, totals) = solve(&problem);
-        for (row, uplift) in [(2, 0.5 * (1.2 + 2.0)), (3, 2.0), (4, 0.0)] {
-            let [n, total, found, ..] = probes(&problem, &states[row]);
-            close(found, uplift, 1e-12, 1.0, "uplift");
-            close(total, -3.0, 1e-11, 1.0, "total");
-            close(n, uplift - 3.0, 1e-11, 1.0, "effective");
-        }
-        (states, totals)
-    };
-    assert!(states[4].work.is_finite());
+    let problem = blocks(ELASTIC, "", &steps).unwrap();
+    let (states, _) = solve(&problem);
+    for (row, uplift) in [(2, 0.5 * (1.2 + 2.0)), (3, 2.0), (4, 0.0)] {
+        let [n, total, found, ..] = probes(&problem, &states[row]);
+        close(found, uplift, 1e-12, 1.0, "uplift");
+        close(total, -3.0, 1e-11, 1.0, "total");
+        close(n, uplift - 3.0, 1e-11, 1.0, "effective");
+    }
 }
 
 fn probes(problem: &Problem, state: &ModelState) -> [f64; 10] {

@@ -1,4 +1,4 @@
-//! Meshes and scenes for tests, made without gmsh.
+//! Meshes and scenes for tests, all but `meshed` without gmsh.
 
 pub mod boundary;
 pub mod boxes;
@@ -13,10 +13,19 @@ pub mod table;
 
 use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};
-use midplane::mesh::{Cells, Facet, Group, Mesh};
+use midplane::mesh::{Cells, Facet, Gmsh, Group, Job, Mesh, mesh_all, read};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 use midplane::shape::vector::in_space;
+
+/// The mesh that gmsh makes of a geometry.
+pub fn meshed(geo: &str) -> Mesh {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("body.geo");
+    std::fs::write(&path, geo).unwrap();
+    let job = Job { name: "body".into(), geo: path, parameters: Vec::new() };
+    read(&mesh_all(&Gmsh::default(), folder.path(), &[job]).unwrap().remove(0).path).unwrap()
+}
 
 /// n + 1 equally spaced places from `start` to `end`.
 pub fn even(start: f64, end: f64, n: usize) -> Vec<f64> {
