@@ -52,7 +52,7 @@ pub struct ModelState {
     /// Measures of a step without displacements; none outside such a step.
     ledger: Option<Ledger>,
     /// Interfaces whose jumps were found as unknowns, not taken from displacements.
-    pub(super) found: Vec<bool>,
+    found: Vec<bool>,
     /// Step and load factor.
     pub(super) at: (usize, f64),
     /// Forces of parts that have gone.
