@@ -35,6 +35,7 @@ INTERFACE_POINTS = {
     "jump_plastic": 2,
     "traction": 2,
     "status": 1,
+    "condition": 1,
     "length": 1,
     "normal": 3,
 }
@@ -49,6 +50,8 @@ ENERGY_BALANCE = 1e-8  # where geo/<scene>/check.args says nothing: work − sto
 SUMMARY_KEYS = {"title", "sizes", "variables", "solution", "equilibrium", "time", "warnings"}
 STATUSES = range(-1, 7)
 ABSENT = -1  # a part of the interface is not there
+CONDITIONS = range(-1, 6)
+FREE = 5  # condition of faces that are apart and free of stress
 OPEN, CLOSED, TIED = 4, 5, 6  # free of stress; the faces touch; open, but not free
 LENGTH = 1e-9  # what the law points leave out of an interface
 KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
@@ -163,7 +166,11 @@ def check_interface(path, grid, law, variables, water, faults):
     faults.expect((grid.celltypes == pyvista.CellType.LINE).all(), f"{path}: not only lines")
     faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
     faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in {STATUSES[0]} ... {STATUSES[-1]}")
+    faults.expect(np.isin(grid["condition"], CONDITIONS).all(), f"{path}: condition not in {CONDITIONS[0]} ... {CONDITIONS[-1]}")
     absent = grid["status"] == ABSENT
+    faults.expect(((grid["condition"] == ABSENT) == absent).all(), f"{path}: status and condition differ in what is there")
+    free = (grid["jump"][:, 0] > 0) & (grid["traction"] == 0).all(axis=1) & ~absent
+    faults.expect(((grid["condition"] == FREE) == free).all(), f"{path}: condition of what is open is wrong")
     faults.expect(not absent.any() or absent.all(), f"{path}: a part of it is not there")
     faults.expect(not grid["traction"][absent].any(), f"{path}: traction where a part is not there")
     if water:
@@ -260,7 +267,7 @@ def read_history(path, scene, faults):
     )
     if not faults.expect(columns[-1:] == ["energy_balance"], f"{path}: the last column is no energy_balance"):
         return rows
-    for number, row in enumerate(rows, 1):
+    for number, row in enumerate(rows):
         for column in columns:
             if column == "step":
                 continue
@@ -272,12 +279,15 @@ def read_history(path, scene, faults):
     steps = [step["name"] for step in scene["steps"]]
     seen = list(dict.fromkeys(row.get("step") for row in rows))
     faults.expect(seen == steps[: len(seen)], f"{path}: steps are {seen}, the scene's are {steps}")
+    numbers = [row["increment"] for row in rows]
+    faults.expect(numbers == list(range(len(rows))), f"{path}: increments do not count from 0: {numbers}")
+    faults.expect(rows and rows[0]["load_factor"] == 0, f"{path}: no row of the unloaded state")
     return rows
 
 
 def collection(path, faults):
-    """The files that the .pvd names, which must be all there are in fields/."""
-    named, last = [], 0.0
+    """The files that the .pvd names, which must be all there are in fields/, and their times."""
+    named, times, last = [], [], 0.0
     for dataset in ElementTree.parse(path).iter("DataSet"):
         named.append(dataset.get("file"))
         time = float(dataset.get("timestep"))
@@ -285,10 +295,11 @@ def collection(path, faults):
         row = int(Path(named[-1]).stem.rpartition("_")[2])
         faults.expect(time == row and time >= last, f"{path}: time {time:g} at {named[-1]}")
         last = time
+        times.append(row)
     present = {f"fields/{file.name}" for file in path.parent.glob("fields/*")}
     faults.expect(len(named) == len(set(named)), f"{path}: names a file twice")
     faults.expect(set(named) == present, f"{path}: names and files differ: {sorted(set(named) ^ present)}")
-    return [path.parent / file for file in named if file in present]
+    return [path.parent / file for file in named if file in present], sorted(set(times))
 
 
 def check(results, scene, energy, expectations, faults):
@@ -308,8 +319,20 @@ def check(results, scene, energy, expectations, faults):
         return ""
 
     rows = read_history(results / "history.csv", scene, faults)
+    solution = summary["solution"]
+    files, times = collection(collections[0], faults) if stored else ([], [])
+    every = scene.get("output", {}).get("fields", "every") == "every"
+    faults.expect(
+        not every or times == [row["increment"] for row in rows],
+        f"{results}: the .pvd has the times {times}, history.csv {len(rows)} rows",
+    )
+    faults.expect(
+        [solution["rows"], solution["fields"]] == [len(rows), len(times)],
+        f"{results}: summary.json has {solution['rows']} rows and {solution['fields']} fields, not {len(rows)}, {len(times)}",
+    )
+    rows = rows[1:]  # beyond the unloaded state
     variables = [variable["name"] for variable in summary["variables"]]
-    interfaces, last, files = {}, 0, collection(collections[0], faults) if stored else []
+    interfaces, last = {}, 0
     for path in files:
         name, _, number = path.stem.rpartition("_")
         last = max(last, int(number))

@@ -19,11 +19,11 @@ from page import GREY, INK, PALE, RUNS
 
 
 def read(folder):
-    """The columns of history.csv by name, with the unloaded state in front."""
+    """The columns of history.csv by name, from the unloaded state on."""
     with open(folder / "history.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     numbers = [name for name in rows[0] if name != "step"]
-    return {name: np.array([0.0, *(float(row[name]) for row in rows)]) for name in numbers}
+    return {name: np.array([float(row[name]) for row in rows]) for name in numbers}
 
 
 def deviation(run, solution, x, y):

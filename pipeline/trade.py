@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 from trade_compare import repeatability, together
-from trade_extras import densities, features, penalty
+from trade_extras import refinements, features, penalty
 from trade_front import MARGINS, candidates, front, label, tie
 from trade_history import curves
 from trade_machine import machine, mesher, pin
@@ -34,7 +34,7 @@ FORMS = {
     "usual": (16, 7, tuple(SCENES), ()),
     "full": (64, 7, tuple(SCENES), tuple(SCENES)),
 }
-# the largest density of the reduced form
+# the largest refinement of the reduced form
 SMALL = 1
 
 
@@ -122,7 +122,7 @@ class Campaign:
     def table(self):
         table = knobs(self.scene)
         if self.form == "reduced":
-            table["density"] = {k: v for k, v in table["density"].items() if v <= SMALL}
+            table["refinement"] = {k: v for k, v in table["refinement"].items() if v <= SMALL}
         return table
 
     def sweep(self):
@@ -199,7 +199,7 @@ def run_scene(program, scene, out, form, robust):
     start = time.monotonic()
     spans = campaign.sweep()
     campaign.hypercube(count)
-    knob_pair = ["density", "element"]
+    knob_pair = ["refinement", "element"]
     movers = sorted(spans, key=spans.get, reverse=True)[:2]
     campaign.factorial("factorial", knob_pair)
     if set(movers) != set(knob_pair) and form != "reduced":
@@ -271,7 +271,7 @@ def main():
         pin(cores)
     extras = {"penalty": penalty(program, out, options.form)}
     if options.form != "reduced":
-        extras |= {"densities": densities(program, out), "features": features(program, out)}
+        extras |= {"refinements": refinements(program, out), "features": features(program, out)}
     result = {
         "machine": machine(program),
         "form": options.form,

@@ -13,7 +13,7 @@ from trade_tables import (
     REPEATED,
     common_table,
     coupling_claim,
-    densities_text,
+    refinements_text,
     features_table,
     front_table,
     penalty_claim,
@@ -59,7 +59,7 @@ def document(data):
         "![Error against time of all scenes](trade/trade_fronts.png)\n",
         "## One setting for all scenes\n",
         table(*common_table(scenes)),
-        "\nA density of 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more.\n",
+        "\nA refinement of 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more.\n",
         "## The fastest setting of each scene\n",
         table(*targets_table(scenes)),
         "\n## Presets\n",
@@ -74,11 +74,11 @@ def document(data):
         "![Error of the tractions against stiffness](trade/trade_penalty.png)\n",
         "\n".join(f"- {line}" for line in penalty_claim(data["penalty"]) + coupling_claim(scenes)),
     ]
-    if "densities" in data:
-        d = data["densities"]
+    if "refinements" in data:
+        d = data["refinements"]
         parts += [
-            "\n## A study of two densities\n",
-            fill(f"{d['points']} points of geo/strip/study.json: {densities_text(d)}", WIDTH),
+            "\n## A study of two refinements\n",
+            fill(f"{d['points']} points of geo/strip/study.json: {refinements_text(d)}", WIDTH),
         ]
     if "features" in data:
         first = data["features"][0]

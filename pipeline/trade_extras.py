@@ -133,9 +133,9 @@ def spent(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def densities(program, out):
+def refinements(program, out):
     """The 6 x 6 study of the strip against 36 runs of its points, all meshed afresh, in one go."""
-    folder = out / "densities"
+    folder = out / "refinements"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     file = ROOT / "geo/strip/study.json"

@@ -18,7 +18,7 @@ PHASES = {
     "factorial": "#66ccee",
     "factorial of the two that move most": "#aa3377",
 }
-ANSWERED = ("tolerance", "increments", "density")
+ANSWERED = ("tolerance", "increments", "refinement")
 FRONT, FAILED, PRESET = "#228833", "#cc3311", "#ee6677"
 LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
 
@@ -118,7 +118,7 @@ def knob_figure(scene):
 
 
 def answer_figure(scene):
-    """The answer against tolerance, increments and density, each alone; a line is the exact one."""
+    """The answer against tolerance, increments and refinement, each alone; a line is the exact one."""
     name = scene["deciding"][0]
     sweep = [row for row in scene["points"] if row["phase"] == "sweep" and row["values"].get(name) is not None]
     figure = make_subplots(rows=1, cols=3, shared_yaxes=True, subplot_titles=[f"{k}" for k in ANSWERED])
@@ -142,7 +142,7 @@ def answer_figure(scene):
         if scene["exact"] is not None:
             figure.add_hline(y=scene["exact"], line_dash="dot", line_color="#228833", row=1, col=column)
         figure.update_xaxes(type="log", row=1, col=column)
-    title = f"{name} against tolerance, increments (× those of the scene) and density"
+    title = f"{name} against tolerance, increments (× those of the scene) and refinement"
     figure.update_layout(title=title, **LAYOUT | {"margin": LAYOUT["margin"] | {"t": 90}})
     return figure
 

@@ -81,13 +81,13 @@ def next_knob(rows, target):
 
 
 def common(scenes, target):
-    """The density and element that are within a target on all scenes at the least time, relative to each scene's best."""
+    """The refinement and element that are within a target on all scenes at the least time, relative to each scene's best."""
     by_setting = {}
     for name, scene in scenes.items():
         best = {}
         for row in scene["points"]:
             if row["phase"] == "factorial" and row["error"] is not None and row["error"] <= target:
-                best[(row["labels"]["density"], row["labels"]["element"])] = row
+                best[(row["labels"]["refinement"], row["labels"]["element"])] = row
         for key, row in best.items():
             by_setting.setdefault(key, {})[name] = row
     everywhere = {key: rows for key, rows in by_setting.items() if len(rows) == len(scenes)}

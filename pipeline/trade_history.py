@@ -20,11 +20,11 @@ def read_history(file):
 
 
 def curves(scene, campaign):
-    """Histories of the densities and increments of the sweep."""
+    """Histories of the refinements and increments of the sweep."""
     result = []
     for title, x, y in scene.plotted:
         for k, row in enumerate(campaign.points):
-            if row["phase"] != "sweep" or list(row["labels"]) not in (["density"], ["increments"]):
+            if row["phase"] != "sweep" or list(row["labels"]) not in (["refinement"], ["increments"]):
                 continue
             columns = read_history(campaign.out / "sweep" / "out" / "points" / f"{k:04}" / "history.csv")
             if x in columns and y in columns:

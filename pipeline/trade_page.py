@@ -22,7 +22,7 @@ from trade_tables import (
     cell,
     common_table,
     coupling_claim,
-    densities_text,
+    refinements_text,
     features_table,
     penalty_claim,
     presets_table,
@@ -82,7 +82,7 @@ def build(data, out):
     )
     page.heading("What to choose")
     page.text(
-        "One setting for all scenes: the fastest density and element that stay within the target on every one. Density 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more."
+        "One setting for all scenes: the fastest refinement and element that stay within the target on every one. Refinement 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more."
     )
     page.table(*common_table(scenes))
     page.text("The fastest setting of each scene:")
@@ -133,10 +133,10 @@ def build(data, out):
     page.figure(penalty_figure(data["penalty"]))
     for line in penalty_claim(data["penalty"]) + coupling_claim(scenes):
         page.text(line)
-    if "densities" in data:
-        d = data["densities"]
-        page.heading("A study of two densities against single runs")
-        page.text(f"{d['points']} points of the strip: {densities_text(d)}")
+    if "refinements" in data:
+        d = data["refinements"]
+        page.heading("A study of two refinements against single runs")
+        page.text(f"{d['points']} points of the strip: {refinements_text(d)}")
     if "features" in data:
         page.heading("What a scene pays for")
         page.table(*features_table(data["features"]))

@@ -1,6 +1,6 @@
-"""The scenes of `make trade`: what is measured, how densities and elements are set, which knobs are swept.
+"""The scenes of `make trade`: what is measured, how refinements and elements are set, which knobs are swept.
 
-Every scene has two sides, A and B, with counts per side that scale with its density; a density of 1 is the scene as its
+Every scene has two sides, A and B, with counts per side that scale with its refinement; a refinement of 1 is the scene as its
 files have it. `ratio` is edges of A over edges of B; where it changes, their product stays. Sides never match: B then has an edge more.
 """
 
@@ -23,7 +23,7 @@ class Scene:
     counts: tuple  # per side: parameter -> value in its .geo
     measures: dict
     errors: tuple  # the measures that decide: the largest of their errors is the error of a run
-    densities: tuple  # levels, 1 is that of the scene's own files
+    refinements: tuple  # levels, 1 is that of the scene's own files
     settings: dict = field(default_factory=dict)
     knobs: dict = field(default_factory=dict)  # further knobs: name -> {label: settings}
     floor: float = 0.0  # what the reference is uncertain by, relative
@@ -39,7 +39,7 @@ def rounded(value, even):
     return max(step, step * round(value / step))
 
 
-def mesh(scene, density=1.0, ratio="own", element="Q8"):
+def mesh(scene, refinement=1.0, ratio="own", element="Q8"):
     """Settings of a mesh."""
     order, triangles = ELEMENTS[element]
     own = scene.counts[0]["edges"] / scene.counts[1]["edges"]
@@ -47,7 +47,7 @@ def mesh(scene, density=1.0, ratio="own", element="Q8"):
     settings = {}
     for side, counts, of_side in zip(scene.sides, scene.counts, (factor, 1 / factor)):
         for name, count in counts.items():
-            value = rounded(count * density * of_side, f"{side}.{name}" in scene.even)
+            value = rounded(count * refinement * of_side, f"{side}.{name}" in scene.even)
             settings[f"subdomains.{side}.parameters.{name}"] = value
         settings[f"subdomains.{side}.parameters.order"] = order
         settings[f"subdomains.{side}.parameters.triangles"] = triangles
@@ -64,9 +64,9 @@ def coupling(scene, kind, quadrature="gauss"):
 
 def knobs(scene):
     """All knobs of a scene: name -> {label: settings}; the first label of each is the reference setting."""
-    coarse_to_fine = {f"{d:g}": d for d in scene.densities}
+    coarse_to_fine = {f"{d:g}": d for d in scene.refinements}
     table = {
-        "density": coarse_to_fine,
+        "refinement": coarse_to_fine,
         "element": {name: name for name in ELEMENTS},
         "ratio": {name: name for name in RATIOS},
         "coupling": {
@@ -105,7 +105,7 @@ def reference(scene):
     return {name: REFERENCE.get(name, next(iter(values))) for name, values in knobs(scene).items()}
 
 
-REFERENCE = {"density": "1", "element": "Q8", "ratio": "own"}
+REFERENCE = {"refinement": "1", "element": "Q8", "ratio": "own"}
 
 
 def settings(scene, labels):
@@ -113,7 +113,7 @@ def settings(scene, labels):
     table = knobs(scene)
     chosen = reference(scene) | labels
     result = dict(scene.settings)
-    result |= mesh(scene, table["density"][chosen["density"]], chosen["ratio"], chosen["element"])
+    result |= mesh(scene, table["refinement"][chosen["refinement"]], chosen["ratio"], chosen["element"])
     for name, label in chosen.items():
         if name not in REFERENCE:
             result |= table[name][label]
@@ -136,7 +136,7 @@ STRIP = Scene(
     joint="joint",
     sides=("lower", "upper"),
     counts=({"edges": 8, "rows": 6}, {"edges": 12, "rows": 7}),
-    densities=(0.25, 0.5, 1, 2, 4, 8),
+    refinements=(0.25, 0.5, 1, 2, 4, 8),
     measures={
         "crest": last("crest", -0.000713658366),
         "energy": last("stored", 0.0008920729575),
@@ -153,7 +153,7 @@ COOK = Scene(
     joint="cut",
     sides=("left", "right"),
     counts=({"edges": 24, "rows": 12}, {"edges": 40, "rows": 20}),
-    densities=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
+    refinements=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
     measures={"tip": last("tip", 27.588303311771824), "energy": last("stored", 13.830648685)},
     errors=("tip", "energy"),
     floor=1e-6,
@@ -167,7 +167,7 @@ RING = Scene(
     joint="joint",
     sides=("inner", "outer"),
     counts=({"edges": 6, "rows": 2}, {"edges": 9, "rows": 2}),
-    densities=(0.25, 0.5, 1, 2, 4, 8),
+    refinements=(0.25, 0.5, 1, 2, 4, 8),
     measures={
         "widening": last("inner.bore.displacement_x", 0.0007871783296),
         "energy": last("energy.stored", 0.5 * 10.0 * 0.0007871783296 * math.pi / 2),
@@ -184,7 +184,7 @@ FRICTION = Scene(
     joint="joint",
     sides=("base", "block"),
     counts=({"edges": 40, "rows": 10}, {"edges": 31, "rows": 8}),
-    densities=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
+    refinements=(0.0625, 0.125, 0.25, 0.5, 1, 2, 4),
     # bodies so stiff that they deviate from rigid ones by 1e-6; a push of 1.6 MN
     settings={
         "materials.stiff.young": 4.0e8,
@@ -209,7 +209,7 @@ DCB = Scene(
     joint="joint",
     sides=("lower", "upper"),
     counts=({"edges": 210, "free": 30, "rows": 1}, {"edges": 140, "free": 30, "rows": 1}),
-    densities=(0.125, 0.25, 0.5, 1),
+    refinements=(0.125, 0.25, 0.5, 1),
     # to just beyond the peak
     settings={
         "output.fields": "last",

@@ -47,31 +47,31 @@ def targets_table(scenes):
 
 
 def reaches(scene, target):
-    """Whether some density and element is within a target."""
+    """Whether some refinement and element is within a target."""
     return fastest_within([row for row in scene["points"] if row["phase"] == "factorial"], target) is not None
 
 
 def common_table(scenes):
-    """One setting for all scenes: for every target the density and element that are within it everywhere."""
+    """One setting for all scenes: for every target the refinement and element that are within it everywhere."""
     rows = []
     for target in TARGETS:
         found = common(scenes, target)
         if found is None:
             rows.append([percent(target), "none measured holds on all scenes", "", "", ""])
             continue
-        (density, element), chosen = found
+        (refinement, element), chosen = found
         dofs = [row["dofs"] for row in chosen.values()]
         times = [relative(row["time"], scenes[name]) for name, row in chosen.items()]
         following = common(scenes, target / 10)
         if following is None:
             short = [name for name, scene in scenes.items() if not reaches(scene, target / 10)]
-            knob = "density; none measured is enough for " + " and ".join(short or ["all at once"])
+            knob = "refinement; none measured is enough for " + " and ".join(short or ["all at once"])
         else:
-            moved = [name for name, a, b in zip(("density", "element"), (density, element), following[0]) if a != b]
+            moved = [name for name, a, b in zip(("refinement", "element"), (refinement, element), following[0]) if a != b]
             there = f" → {following[0][1]} × {following[0][0]}"
             knob = " and ".join(moved) + there if moved else "none: this one has it"
         sizes = [f"{min(dofs):.0f} to {max(dofs):.0f}", f"{min(times):.1f} to {max(times):.1f}"]
-        rows.append([percent(target), f"{element}, density × {density}", *sizes, knob])
+        rows.append([percent(target), f"{element}, refinement × {refinement}", *sizes, knob])
     return COMMON, rows
 
 
@@ -171,7 +171,7 @@ def features_table(features):
     return ["feature", *times, "MB", "iterations"], rows
 
 
-def densities_text(d):
+def refinements_text(d):
     study, runs = d["processor"]
     return (
         f"{d['study']:.1f} s as one study, {d['runs']:.1f} s as single runs ({d['runs_with_meshes']:.1f} s with their meshes "

@@ -1,10 +1,12 @@
 //! The one error of the program: what is wrong, where, and what would have been right; and what it warns of.
 
+mod stop;
 mod warning;
 
+pub use stop::Stop;
 pub use warning::{Code, Warning};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Result of everything that can fail on input or environment.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -74,6 +76,16 @@ pub enum Error {
         /// Converged increments on disk.
         kept: usize,
     },
+    /// A signal asked the run to end; what converged before is on disk.
+    #[error("stopped by {}; {}", signal_name(*signal), kept_text(*kept, folder))]
+    Stopped {
+        /// Number of the signal.
+        signal: u8,
+        /// Converged increments on disk.
+        kept: usize,
+        /// Folder of their results; empty before there is one.
+        folder: PathBuf,
+    },
     /// A program that midplane needs is missing, was killed or ran out of time.
     #[error("{program}: {what}; {help}")]
     Program {
@@ -125,7 +137,7 @@ impl std::fmt::Display for At {
 }
 
 impl Error {
-    /// Exit code of the program: 2 bad input, 3 no equilibrium, 4 environment.
+    /// Exit code of the program: 2 bad input, 3 no equilibrium, 4 environment, 128 + its number after a signal.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Text { .. }
@@ -134,6 +146,7 @@ impl Error {
             | Error::Interface { .. }
             | Error::FreeBody { .. } => 2,
             Error::NoEquilibrium { .. } => 3,
+            Error::Stopped { signal, .. } => 128 + signal,
             Error::Program { .. } => 4,
             // a file the user named and that is not there is bad input; a full disk is the environment
             Error::Io { action, source, .. } if *action == "read" => match source.kind() {
@@ -178,6 +191,25 @@ pub fn name_help<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>)
         help.push_str(&format!(". Did you mean \"{name}\"?"));
     }
     help
+}
+
+/// The name of a signal that ends runs.
+fn signal_name(signal: u8) -> String {
+    match signal {
+        1 => "SIGHUP".into(),
+        2 => "Ctrl-C".into(),
+        15 => "SIGTERM".into(),
+        other => format!("signal {other}"),
+    }
+}
+
+fn kept_text(kept: usize, folder: &Path) -> String {
+    match (kept, folder.as_os_str().is_empty()) {
+        (_, true) => "nothing was written".into(),
+        (0, false) => format!("kept the unloaded state in {}", folder.display()),
+        (1, false) => format!("kept 1 increment in {}", folder.display()),
+        (_, false) => format!("kept {kept} increments in {}", folder.display()),
+    }
 }
 
 fn indent(lines: &[String]) -> String {

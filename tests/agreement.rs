@@ -37,6 +37,7 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f
         settings.extend(["left", "right"].map(|half| format!("subdomains.{half}.parameters.edges=24")));
     }
     let options = Options {
+        stop: Default::default(),
         scene: file.to_path_buf(),
         out: Some(folder.to_path_buf()),
         settings,

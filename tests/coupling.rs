@@ -176,14 +176,14 @@ fn matched_sides_are_the_classical_element_entry_by_entry() {
     }
 }
 
-const DENSITIES: [(usize, usize); 6] = [(1, 1), (5, 8), (7, 12), (1, 37), (24, 25), (40, 5)];
+const EDGES: [(usize, usize); 6] = [(1, 1), (5, 8), (7, 12), (1, 37), (24, 25), (40, 5)];
 
-/// Claim: constant and linear jumps are reproduced exactly, at any density, angle and (small) gap.
+/// Claim: constant and linear jumps are reproduced exactly, at any ratio of edges, angle and (small) gap.
 #[test]
 fn constant_and_linear_jumps_are_reproduced() {
     let a = |x: [f64; 2]| [1e-3 + 2e-3 * x[0] - 1e-3 * x[1], -2e-3 + 0.5e-3 * x[0] + 3e-3 * x[1]];
     let b = |x: [f64; 2]| [-4e-3 - 1e-3 * x[0] + 2e-3 * x[1], 1e-3 + 4e-3 * x[0] - 2e-3 * x[1]];
-    for (n_a, n_b) in DENSITIES {
+    for (n_a, n_b) in EDGES {
         for degrees in [0.0, 77.0] {
             let line = Line::new(&even(0.0, 2.0, n_a), &graded(0.0, 2.0, n_b.max(2), 5.0), degrees, 0.0);
             for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
@@ -210,7 +210,7 @@ fn constant_and_linear_jumps_are_reproduced() {
 #[test]
 fn rigid_motions_give_no_jump() {
     for gap in [0.0, 1e-4, -1e-3] {
-        for (n_a, n_b) in DENSITIES {
+        for (n_a, n_b) in EDGES {
             let line = Line::new(&even(0.0, 2.0, n_a), &even(0.0, 2.0, n_b), 20.0, gap);
             for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
                 let c = line.couple(kind, Points::Gauss);
@@ -233,7 +233,7 @@ fn the_grid_is_as_fine_as_the_locally_coarser_side() {
     let coarse = graded(0.0, 1.0, 7, 3.0);
     let c = Line::new(&fine, &coarse, 0.0, 0.0).couple(JumpScheme::Projected, Points::Gauss);
     assert!(c.midplane.grid_nodes <= coarse.len());
-    for (n_a, n_b) in DENSITIES {
+    for (n_a, n_b) in EDGES {
         let c = Line::new(&even(0.0, 1.0, n_a), &even(0.0, 1.0, n_b), 0.0, 0.0)
             .couple(JumpScheme::Projected, Points::Gauss);
         assert!(c.midplane.grid_nodes - 1 <= n_a.min(n_b), "{n_a}:{n_b}");
@@ -407,7 +407,7 @@ fn matched_quadratic_sides_are_the_classical_six_node_element() {
 /// quadratic cells, two on linear ones.
 #[test]
 fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
-    for (n_a, n_b) in DENSITIES {
+    for (n_a, n_b) in EDGES {
         let (s_a, s_b) = (even(0.0, 2.0, n_a), graded(0.0, 2.0, n_b.max(2), 3.0));
         let (a, b) = (quadratic_side(&s_a, true), quadratic_side(&s_b, false));
         let straight = (s_b.iter().map(|&s| [s, 0.3, 0.0]).collect::<Vec<_>>(), edges(s_b.len(), false));

@@ -62,7 +62,7 @@ fn run_to(opening: &str, control: &str, lower: usize, upper: usize, increments: 
     let names: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     let column = |name: &str| -> Vec<f64> {
         let at = names.iter().position(|&column| column == name).unwrap();
-        text.lines().skip(1).map(|row| row.split(',').nth(at).unwrap().parse().unwrap()).collect()
+        text.lines().skip(2).map(|row| row.split(',').nth(at).unwrap().parse().unwrap()).collect()
     };
     let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();

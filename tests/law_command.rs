@@ -23,7 +23,7 @@ fn example_2_is_driven_from_the_scene_of_the_gallery() {
         let arguments = [&["geo/shear/scene.json", "joint", "geo/shear/path.json"], integration].concat();
         let rows = rows(&law(&arguments));
         let header = "s,jump_n,jump_t,traction_n,traction_t,fracture_work,opening,bridge_stiffness,slip_open,\
-                      jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status";
+                      jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status,condition";
         assert_eq!(rows[0].join(","), header);
         assert_eq!(rows.len(), 1 + 1 + 2 + 400); // header, start, points
         let last = &rows[403];

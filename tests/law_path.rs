@@ -59,9 +59,9 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     assert_eq!(
         lines[0],
         "s,jump_n,jump_t,traction_n,traction_t,\
-         jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status"
+         jump_n_plastic,jump_t_plastic,tensile_strength,cohesion,tan_friction,status,condition"
     );
-    assert_eq!(lines[2], "1,1e0,2e-3,1e3,4e0,0e0,0e0,,,,0");
+    assert_eq!(lines[2], "1,1e0,2e-3,1e3,4e0,0e0,0e0,,,,0,0");
     let closing = Cracking { unloading: Unloading::Closing, ..EXAMPLE_2 };
     for (law, own) in
         [(EXAMPLE_2, "fracture_work,"), (closing, "fracture_work,opening,bridge_stiffness,slip_open,")]
@@ -71,7 +71,7 @@ fn the_csv_has_its_columns_and_the_elastic_law_leaves_the_strength_empty() {
     let text = csv(&BLOCK, &path(&[("s", 0.0, -2.0, "d", 0.0, 3e-4, 1)]));
     let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
     assert_eq!(last.len(), columns(&BLOCK).split(',').count());
-    assert_eq!(&last[7..], ["0e0", "0e0", "6e-1", "2"]);
+    assert_eq!(&last[7..], ["0e0", "0e0", "6e-1", "2", "1"]);
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn a_run_that_does_not_fit_is_refused_with_dofs_estimate_and_what_there_is() {
     let problem = bind(SCENE, vec![plate]).unwrap();
     let run = |available| -> Result<(usize, usize)> {
         let mut clock = Clock::new("test");
-        let means = Means { memory: available, cache: None };
+        let means = Means { memory: available, ..Means::default() };
         let equations = Equations::new(&problem, means, &mut clock)?;
         let mut history = History::new(&problem, &equations, clock);
         let mut given = 0;

@@ -53,7 +53,7 @@ const SCENE: &str = r#"{ "plane": "strain",
   "interfaces": { "joint": { "side_a": "lower.top", "side_b": "upper.bottom",
     "law": { "type": "coulomb", "normal_stiffness": 1, "tangential_stiffness": 1, "friction_coefficient": 1 } } },
   "solution": { "iterations": 7 },
-  "density": ["lower.edges", "upper.edges"],
+  "refinement": ["lower.edges", "upper.edges"],
   "steps": [ { "name": "a", "fix": { "lower.bottom": ["x", "y"] } }, { "name": "b", "increments": 10 } ] }"#;
 
 fn read(text: &str, settings: &[&str]) -> midplane::error::Result<scene::Scene> {
@@ -69,7 +69,7 @@ fn a_preset_fills_what_the_scene_leaves_open() {
     for (name, accuracy) in Accuracy::ALL {
         let preset = accuracy.preset();
         let scene = read(SCENE, &[&format!("accuracy={name}")]).unwrap();
-        let even = |n: f64| 2.0 * (n * preset.density / 2.0).round();
+        let even = |n: f64| 2.0 * (n * preset.refinement / 2.0).round();
         assert_eq!(scene.subdomains["lower"].parameters["edges"], even(10.0));
         assert_eq!(scene.subdomains["upper"].parameters["edges"], even(12.0));
         for subdomain in scene.subdomains.values() {
@@ -96,22 +96,22 @@ fn what_is_stated_or_set_rules() {
 }
 
 #[test]
-fn a_wrong_preset_or_density_is_refused() {
+fn a_wrong_preset_or_refinement_is_refused() {
     for (from, to, expected) in [
         (
-            "\"density\": [\"lower.edges\"",
-            "\"accuracy\": \"draught\", \"density\": [\"lower.edges\"",
+            "\"refinement\": [\"lower.edges\"",
+            "\"accuracy\": \"draught\", \"refinement\": [\"lower.edges\"",
             "unknown value \"draught\"; there is draft, normal, fine",
         ),
         (
             "\"lower.edges\"",
             "\"lwer.edges\"",
-            "density.0: \"lwer.edges\" is no parameter of a subdomain; write <subdomain>.<parameter>",
+            "refinement.0: \"lwer.edges\" is no parameter of a subdomain; write <subdomain>.<parameter>",
         ),
         (
             "\"upper.edges\"]",
             "\"upper.egdes\"], \"accuracy\": \"fine\"",
-            "density.1: no number to multiply: upper does not declare egdes with one",
+            "refinement.1: no number to multiply: upper does not declare egdes with one",
         ),
     ] {
         assert!(SCENE.contains(from));

@@ -29,6 +29,30 @@ fn scene(end: f64, control: &str, strategy: &str) -> String {
     )
 }
 
+/// A displacement that is stated as a formula affine in the load factor is followed as the ramp that it is; one that bends is
+/// refused with what to do.
+#[test]
+fn affine_formulas_are_followed_as_ramps() {
+    let bar =
+        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let end = 1.02 * CHI * (1.0 / E + 1.0 / KN);
+    let run = |text: &str| try_solve(&bind(text, vec![bar(-0.5), bar(0.0)]).unwrap());
+    let ramp = scene(end, "auto", "condensed");
+    let stated = format!("{{\"y\": {end}}}");
+    assert!(ramp.contains(&stated));
+    let formula = ramp.replace(&stated, &format!("{{\"y\": \"{end}*load_factor\"}}"));
+    let (a, b) = (run(&ramp), run(&formula));
+    assert!(a.load_factors.windows(2).any(|two| two[1] < two[0]), "the path turns back");
+    assert_eq!(a.load_factors.len(), b.load_factors.len());
+    for (one, other) in a.load_factors.iter().zip(&b.load_factors) {
+        assert!((one - other).abs() < 1e-9, "{one} {other}");
+    }
+    let bends = ramp.replace(&stated, &format!("{{\"y\": \"{end}*load_factor^2\"}}"));
+    let message = bind(&bends, vec![bar(-0.5), bar(0.0)]).unwrap_err().to_string();
+    assert!(message.contains("steps.0.control: the path of equilibria cannot be followed"), "{message}");
+    assert!(message.contains("in several steps where they bend"), "{message}");
+}
+
 #[test]
 fn the_exact_path_is_followed_however_brittle_the_bar() {
     for (length, strategy, control) in [

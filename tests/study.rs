@@ -89,7 +89,7 @@ const AXES: &str = r#""axes": {
     "upper": { "parameter": "upper.edges", "range": [5, 9], "count": 2, "whole": true } }"#;
 const ENERGY: &str = r#""energy": { "take": "last", "of": "energy.stored", "reference": 0.0008920729575 }"#;
 
-/// A k × l study of two densities prepares k + l bodies, and its points have the energies of single runs.
+/// A k × l study of two meshes prepares k + l bodies, and its points have the energies of single runs.
 #[test]
 fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
     let strip = Strip::new(&format!("{{ {AXES}, \"measures\": {{ {ENERGY} }} }}"));
@@ -139,7 +139,7 @@ fn points_that_differ_in_the_law_share_everything_before_it() {
     }
 }
 
-/// The L2 error of the tractions falls by the square of the density or faster, with T3 on both sides.
+/// The L2 error of the tractions falls by the square of the mesh size or faster, with T3 on both sides.
 #[test]
 fn a_field_is_compared_with_formulas() {
     let strip = Strip::new(
@@ -171,7 +171,7 @@ fn a_field_is_compared_with_formulas() {
 /// The limit of ever finer runs is the exact energy to within its own uncertainty.
 #[test]
 fn the_finest_runs_stand_for_an_exact_answer() {
-    let density = |n: usize| {
+    let refined = |n: usize| {
         let part = |subdomain: &str, edges: usize, rows: usize| {
             let key = format!("\"subdomains.{subdomain}.parameters");
             format!("{key}.edges\": {edges}, {key}.rows\": {rows}, {key}.order\": 1")
@@ -182,9 +182,9 @@ fn the_finest_runs_stand_for_an_exact_answer() {
         r#"{{ "axes": {{ "lower": {{ "parameter": "lower.edges", "values": [4] }} }},
            "measures": {{ "energy": {{ "take": "last", "of": "energy.stored" }} }},
            "reference": {{ "runs": [{}, {}, {}] }} }}"#,
-        density(1),
-        density(2),
-        density(4)
+        refined(1),
+        refined(2),
+        refined(4)
     ));
     strip.study("out", &[]);
     let text = std::fs::read_to_string(strip.path("out/study.json")).unwrap();

@@ -146,8 +146,8 @@ class Run:
         return json.loads((self.out / "summary.json").read_text())
 
     def history(self):
-        """{column: values}; numbers where all are numbers."""
-        return table((self.out / "history.csv").read_text())
+        """{column: values of the increments}, without the unloaded state; numbers where all are numbers."""
+        return {name: values[1:] for name, values in table((self.out / "history.csv").read_text()).items()}
 
     def rows(self):
         """The CSV of the law command."""

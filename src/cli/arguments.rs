@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::error::Stop;
 use crate::run::Options;
 
 /// Finite elements of solids whose parts are meshed separately and joined along interfaces.
@@ -17,11 +18,11 @@ use crate::run::Options;
 Examples:
   midplane run geo/compression            mesh, solve and write results/compression
   midplane run geo/compression -o out --set steps.0.load.upper.top.pressure=5
-  midplane check geo/cantilever           sizes, densities, segments, warnings
+  midplane check geo/cantilever           sizes, edges, segments, warnings
   midplane law geo/shear joint path.json  one point of a law along a path, as CSV
   midplane schema > geo/scene.schema.json
 
-Exit codes: 0 done; 2 bad input; 3 no equilibrium (what converged is on disk); 4 environment (no gmsh, disk full)."
+Exit codes: 0 done; 2 bad input; 3 no equilibrium (what converged is on disk); 4 environment (no gmsh, disk full);\n128 + signal after Ctrl-C, SIGTERM or SIGHUP (what converged is on disk; a second one ends at once)."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -53,7 +54,7 @@ Example:
         #[command(flatten)]
         common: Common,
     },
-    /// Do everything short of solving: sizes, densities, segments, gaps, stiffness number, warnings
+    /// Do everything short of solving: sizes, edges, segments, gaps, stiffness number, warnings
     #[command(after_help = "\
 Example:
   midplane check geo/cantilever --set interfaces.joint.law.normal_stiffness=1e9
@@ -154,6 +155,16 @@ Example:
     },
 }
 
+impl Command {
+    /// True for what meshes or solves, and ends in order where it is asked to.
+    pub(super) fn is_long(&self) -> bool {
+        matches!(
+            self,
+            Command::Run { .. } | Command::Mesh { .. } | Command::Check { .. } | Command::Study { .. }
+        )
+    }
+}
+
 /// Files that have a schema.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum Of {
@@ -179,7 +190,7 @@ pub(super) struct Common {
     /// Replace a value of the scene
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
-    /// Preset of density, order, tolerances and increments
+    /// Preset of refinement, order, tolerances and increments
     #[arg(long, value_name = "PRESET", value_parser = ["draft", "normal", "fine"])]
     pub accuracy: Option<String>,
     /// The mesher
@@ -194,7 +205,7 @@ pub(super) struct Common {
 }
 
 impl Common {
-    pub(super) fn options(&self) -> Options {
+    pub(super) fn options(&self, stop: &Stop) -> Options {
         let accuracy = self.accuracy.iter().map(|preset| format!("accuracy={preset}"));
         Options {
             scene: self.scene.clone(),
@@ -202,6 +213,7 @@ impl Common {
             settings: accuracy.chain(self.settings.iter().cloned()).collect(),
             gmsh: self.gmsh.clone(),
             gmsh_limit: Duration::from_secs(self.gmsh_limit),
+            stop: stop.clone(),
         }
     }
 }

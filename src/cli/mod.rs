@@ -5,6 +5,8 @@ mod check;
 mod follow;
 mod report;
 mod show;
+mod signals;
+mod ticker;
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -14,7 +16,7 @@ use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command, Of};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Stop};
 use crate::law::Integration;
 use crate::law::path;
 use crate::output;
@@ -35,23 +37,27 @@ pub fn main() -> ExitCode {
 }
 
 fn act(arguments: Arguments) -> Result<()> {
+    let stop = Stop::default();
+    if arguments.command.is_long() {
+        signals::watch(&stop);
+    }
     match arguments.command {
         Command::Run { common, threads } => {
             set_threads(threads)?;
             let mut show = show::Show::new(common.quiet);
-            let done = run::run(&common.options(), &mut |event| show.event(event))?;
+            let done = run::run(&common.options(&stop), &mut |event| show.event(event))?;
             show.done(&done);
             Ok(())
         }
         Command::Mesh { common } => {
             let mut show = show::Show::new(common.quiet);
-            run::mesh(&common.options(), &mut |event| show.event(event))?;
+            run::mesh(&common.options(&stop), &mut |event| show.event(event))?;
             show.finish();
             Ok(())
         }
         Command::Check { common, plot } => {
             let mut show = show::Show::new(common.quiet);
-            let mut prepared = run::prepare(&common.options(), &mut |event| show.event(event))?;
+            let mut prepared = run::prepare(&common.options(&stop), &mut |event| show.event(event))?;
             prepared.folder.keep();
             check::print(&show, &prepared);
             if plot {
@@ -79,7 +85,7 @@ fn act(arguments: Arguments) -> Result<()> {
             }
             let out = out.unwrap_or_else(|| Path::new("results").join(&plan.name));
             let limit = Duration::from_secs(gmsh_limit);
-            let options = run::Options { gmsh, gmsh_limit: limit, ..run::Options::of(&plan.scene) };
+            let options = run::Options { gmsh, gmsh_limit: limit, stop, ..run::Options::of(&plan.scene) };
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
             let means = study::StudyMeans { out, file, options, jobs: jobs.get(), threads };

@@ -4,31 +4,36 @@ use std::io::IsTerminal;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
-use crate::error::Error;
+use crate::error::{At, Error};
 
-/// The text for standard error.
+/// The text for standard error: a line that says everything, and the place in its file.
 pub(super) fn error(error: &Error) -> String {
-    let mut text = format!("error: {error}");
-    if let Error::Text { at, what, help } = error
-        && !at.text.is_empty()
-    {
-        // the label covers the first line only: a key whose value spans many lines would hide the place
-        let line = at.text[at.span.clone()].lines().next().map_or(0, str::len);
-        let label = LabeledSpan::new(Some(what.clone()), at.span.start, line);
-        let diagnostic = MietteDiagnostic::new(at.to_string()).with_label(label).with_help(help.clone());
-        let source = NamedSource::new(at.file.display().to_string(), at.text.clone());
-        let report = Report::new(diagnostic).with_source_code(source);
-        let theme = if std::io::stderr().is_terminal() {
-            GraphicalTheme::unicode()
-        } else {
-            GraphicalTheme::unicode_nocolor()
-        };
-        let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false);
-        let mut excerpt = String::new();
-        if handler.render_report(&mut excerpt, report.as_ref()).is_ok() {
-            text.push_str("\n\n");
-            text.push_str(excerpt.trim_end());
-        }
+    let text = format!("error: {error}");
+    match error {
+        Error::Text { at, .. } if !at.text.is_empty() => format!("{text}\n\n{}", excerpt(at)),
+        _ => text,
     }
-    text
+}
+
+/// The lines about a place, underlined; what is wrong there is said above.
+fn excerpt(at: &At) -> String {
+    // the first line only: a key whose value spans many lines would hide the place
+    let line = at.text[at.span.clone()].lines().next().map_or(0, str::len);
+    let label = LabeledSpan::new(None, at.span.start, line);
+    let diagnostic = MietteDiagnostic::new("").with_label(label);
+    let source = NamedSource::new(at.file.display().to_string(), at.text.clone());
+    let report = Report::new(diagnostic).with_source_code(source);
+    let theme = if std::io::stderr().is_terminal() {
+        GraphicalTheme::unicode()
+    } else {
+        GraphicalTheme::unicode_nocolor()
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false);
+    let mut rendered = String::new();
+    if handler.render_report(&mut rendered, report.as_ref()).is_err() {
+        return String::new(); // the message stands without
+    }
+    // the head is that of an empty message
+    let lines: Vec<&str> = rendered.lines().skip_while(|line| !line.contains('╭')).collect();
+    lines.join("\n").trim_end().into()
 }

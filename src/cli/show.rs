@@ -5,11 +5,14 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
+use super::ticker::Ticker;
 use crate::assembly::InterfaceOperator;
 use crate::error::Warning;
 use crate::history::{Operations, PartNow, StageNow, Totals, memory::gigabytes};
 use crate::output::HistoryRow;
+use crate::problem::Problem;
 use crate::run::{Event, RunDone};
+use crate::scene::Control;
 use crate::solver::Method;
 
 /// Prints events.
@@ -19,6 +22,10 @@ pub(super) struct Show {
     stage: Option<StageNow>,
     /// Counts up to the last increment shown.
     totals: Option<Totals>,
+    /// Without a bar, what is under way is told now and then.
+    ticker: Option<Ticker>,
+    /// Widths of the table's first two columns.
+    widths: [usize; 2],
 }
 
 impl Show {
@@ -28,7 +35,7 @@ impl Show {
             bar.enable_steady_tick(Duration::from_millis(100));
             bar
         });
-        Show { quiet, bar, stage: None, totals: None }
+        Show { quiet, bar, stage: None, totals: None, ticker: None, widths: [0, 0] }
     }
 
     /// Shows the bar by a template, in which `{stage}` is the stage of work under way.
@@ -57,6 +64,7 @@ impl Show {
             Some(bar) => bar.suspend(|| println!("{text}")),
             None => println!("{text}"),
         }
+        self.ticker.iter().for_each(Ticker::told);
     }
 
     /// A warning is worth its lines also when everything else is quiet.
@@ -73,6 +81,7 @@ impl Show {
             Event::Began(stage) => {
                 self.stage = Some(stage.clone());
                 self.style("{spinner} {stage} {elapsed}");
+                self.ticker = (self.bar.is_none() && !self.quiet).then(|| Ticker::start(stage.clone()));
             }
             Event::Meshed { name, path, reused } => {
                 let how = if reused { "reused" } else { "meshed" };
@@ -81,21 +90,22 @@ impl Show {
             Event::Interface(interface) => self.line(&describe(interface)),
             Event::Warning(warning) => self.warning(warning),
             Event::Reused(what) => self.line(&format!("reused   {what}")),
-            Event::Increment { row, number, of, total, totals, .. } => {
+            Event::Increment { row, number, of, total, totals, problem, .. } => {
                 if self.totals.is_none() {
-                    self.begin(total, totals);
+                    self.begin(total, totals, problem);
                 }
                 if let Some(bar) = &self.bar {
                     bar.set_position(row.increment as u64);
                 }
-                self.line(increment(row, number, of, &marks(totals, self.totals.as_ref())).trim_end());
+                let marks = marks(totals, self.totals.as_ref());
+                self.line(increment(self.widths, row, number, of, &marks).trim_end());
                 self.totals = Some(totals.clone());
             }
         }
     }
 
     /// The method of solution, and the head of the table of increments.
-    fn begin(&self, total: usize, totals: &Totals) {
+    fn begin(&mut self, total: usize, totals: &Totals, problem: &Problem) {
         let how = match totals.method {
             Method::Joined => "linear, one factor",
             Method::InParts => "linear, factors of two parts side by side",
@@ -108,8 +118,10 @@ impl Show {
             let text = format!("condensed {condensed:.1e}, blocks {blocks:.1e}, plain {plain:.1e} or more");
             self.line(&format!("{:<8} {:<12} {text}", "", "operations"));
         }
+        self.widths = widths(problem);
+        let [name, count] = self.widths;
         self.line(&format!(
-            "{:<20} {:>9} {:>8} {:>6} {:>10} {:>10}",
+            "{:<name$} {:>count$} {:>10} {:>6} {:>10} {:>10}",
             "step", "incr", "load", "iter", "residual", "energy"
         ));
         if let Some(bar) = &self.bar {
@@ -166,10 +178,20 @@ fn marks(now: &Totals, before: Option<&Totals>) -> String {
     marks.join(", ")
 }
 
+/// Widths of the names of steps, and of the numbers of increments: a path that turns has more than its step states.
+fn widths(problem: &Problem) -> [usize; 2] {
+    let names = problem.steps.iter().map(|step| step.name.chars().count()).max().unwrap_or(0);
+    let counts = problem.steps.iter().map(|step| match step.control {
+        Control::Load => 2 * step.increments.to_string().len() + 1,
+        _ => 2 * step.increments.to_string().len() + 4,
+    });
+    [names.clamp(4, 40), counts.max().unwrap_or(0).max(7)]
+}
+
 /// A row of the table.
-fn increment(row: &HistoryRow, number: usize, of: usize, marks: &str) -> String {
+fn increment([name, count]: [usize; 2], row: &HistoryRow, number: usize, of: usize, marks: &str) -> String {
     format!(
-        "{:<20} {:>9} {:>8.4} {:>6} {:>10.1e} {:>10.1e}  {marks}",
+        "{:<name$} {:>count$} {:>10.6} {:>6} {:>10.1e} {:>10.1e}  {marks}",
         row.step,
         format!("{number}/{of}"),
         row.load_factor,

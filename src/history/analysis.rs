@@ -5,6 +5,7 @@ use super::equilibrium::Engine;
 use super::loading::StepLoad;
 use super::state::ModelState;
 use super::totals::Totals;
+use crate::error::Stop;
 use crate::problem::Problem;
 
 /// The data that every step of a history works on.
@@ -14,6 +15,8 @@ pub(super) struct Analysis<'a> {
     pub(super) state: ModelState,
     pub(super) totals: Totals,
     pub(super) clock: Clock,
+    /// A request to stop.
+    pub(super) stop: Stop,
 }
 
 /// Recovers what an increment without stored fields has left out of a state.

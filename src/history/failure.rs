@@ -1,6 +1,6 @@
 //! Errors that end a history before its last increment.
 
-use crate::error::Error;
+use crate::error::{Error, Stop};
 use crate::problem::{BoundStep, Problem};
 use crate::solver::Unconverged;
 
@@ -12,6 +12,12 @@ pub(super) fn unusable(step: &BoundStep, increment: usize, kept: usize, error: f
         "numbers overflowed: loads or stiffnesses are out of range".into()
     };
     Error::NoEquilibrium { step: step.name.clone(), increment, reason, kept }
+}
+
+/// Somebody wants the run to end: an equilibrium beyond the last one is not sought.
+pub(super) fn stopped(stop: &Stop) -> Option<Unconverged> {
+    let reason = "the run was stopped".into();
+    stop.requested().map(|_| Unconverged { reason, worst: Vec::new(), iterations: 0 })
 }
 
 /// A matrix that is not positive definite.

@@ -137,7 +137,7 @@ impl<'a> Start<'a> {
 
     /// Loads at both ends if they are affine between them.
     pub(super) fn ramp(&self) -> Result<Option<Ramp>> {
-        if self.step.follows_load_factor() {
+        if !self.step.is_affine() {
             return Ok(None);
         }
         let [start, end] = [self.at(0.0)?.into_forces(), self.at(1.0)?.into_forces()];

@@ -51,19 +51,21 @@ pub use increment::Increment;
 pub use state::ModelState;
 pub use totals::{Snap, Totals};
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
 use account::account;
 use analysis::{Analysis, complete};
 use equilibrium::Search;
 use equilibrium::strategy::active;
-use failure::{no_equilibrium, singular};
+use failure::{no_equilibrium, singular, stopped};
 use load::LoadStep;
 use loading::Start;
 use path::PathStep;
 use settle::{initial_force, settle};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::problem::{BoundStep, Problem};
 use crate::scene::Control;
 use crate::solver::{Ramp, Unconverged};
@@ -121,7 +123,8 @@ impl<'a> History<'a> {
         };
         let (engine, state) = (equations.engine(), ModelState::unloaded(problem));
         let position = Position { step_number: 0, phase: Phase::Supports };
-        History { analysis: Analysis { problem, engine, state, totals, clock }, position, loads: None }
+        let stop = equations.stop.clone();
+        History { analysis: Analysis { problem, engine, state, totals, clock, stop }, position, loads: None }
     }
 
     /// From a checkpoint of a history of the same problem.
@@ -133,7 +136,8 @@ impl<'a> History<'a> {
     ) -> Result<History<'a>> {
         let Checkpoint { position, state, totals, search, before } = checkpoint;
         let engine = equations.engine();
-        let mut analysis = Analysis { problem, engine, state, totals, clock };
+        let stop = equations.stop.clone();
+        let mut analysis = Analysis { problem, engine, state, totals, clock, stop };
         let mut loads = None;
         if let (Some(step), false) =
             (problem.steps.get(position.step_number), matches!(position.phase, Phase::Supports))
@@ -183,11 +187,12 @@ impl<'a> History<'a> {
     }
 
     /// The next increment; first the unloaded state with number 0, none at the end. Where no equilibrium is found the last
-    /// increment comes once more with all its fields, and then the error.
+    /// increment comes once more with all its fields, and then the error; so it does where the run is asked to stop.
     #[expect(clippy::should_implement_trait, reason = "a history ends with an error or without")]
     pub fn next(&mut self) -> Result<Option<Increment<'a>>> {
         let problem = self.analysis.problem;
         while let Some(step) = problem.steps.get(self.position.step_number) {
+            self.end_if_stopped();
             let step_number = self.position.step_number;
             if let Some(increment) = self.go_on(step_number, step)? {
                 return Ok(Some(increment));
@@ -195,6 +200,16 @@ impl<'a> History<'a> {
         }
         self.analysis.clock.begin("end");
         Ok(None)
+    }
+
+    /// Goes no further if the run is asked to stop.
+    fn end_if_stopped(&mut self) {
+        let begun = self.position.step_number > 0 || !matches!(self.position.phase, Phase::Supports);
+        let ended = matches!(self.position.phase, Phase::Lost { .. });
+        if let Some(why) = stopped(&self.analysis.stop).filter(|_| begun && !ended) {
+            let load_factor = self.analysis.state.at.1;
+            self.position.phase = Phase::Lost { number: 0, load_factor, why, shown: false };
+        }
     }
 
     /// The next phase of a step, and the increment that it gives.
@@ -214,15 +229,20 @@ impl<'a> History<'a> {
             (Phase::Load(at), Some((start, _))) => load::next(analysis, step, start, at)?,
             (Phase::Path(at), Some((start, Some(ramp)))) => path::next(analysis, step, start, ramp, at)?,
             (Phase::Lost { number, load_factor, why, shown }, loads) => {
-                let increment = analysis.totals.increments;
-                if let (false, Some((start, _)), 1..) = (*shown, loads, increment) {
+                if !*shown {
                     *shown = true;
                     let Analysis { problem, engine, state, .. } = analysis;
-                    complete(problem, &**engine, state, start.at(*load_factor)?);
+                    if let Some((start, _)) = loads.as_ref().filter(|_| !state.is_complete()) {
+                        complete(problem, &**engine, state, start.at(*load_factor)?);
+                    }
                     let (number, load_factor) = (*number, *load_factor);
                     return Ok(Some(Increment { number, load_factor, ended: true, ..at }));
                 }
-                return Err(no_equilibrium(analysis.problem, step, *number, increment, *load_factor, why));
+                let kept = analysis.totals.increments;
+                if let Some(signal) = analysis.stop.requested() {
+                    return Err(Error::Stopped { signal, kept, folder: PathBuf::new() });
+                }
+                return Err(no_equilibrium(analysis.problem, step, *number, kept, *load_factor, why));
             }
             (Phase::Loads | Phase::Load(_) | Phase::Path(_), _) => {
                 self.open(step_number, step)?;

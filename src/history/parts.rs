@@ -13,7 +13,7 @@ use super::analysis::Analysis;
 use super::clock::PartNow;
 use super::energy::carried;
 use super::equilibrium::{Ahead, Failure};
-use super::failure::unusable;
+use super::failure::{stopped, unusable};
 use super::judge::{Judged, judge};
 use super::loading::Start;
 use super::outcome::Outcome;
@@ -32,6 +32,9 @@ const SMALLEST: f64 = 5e-4;
 const SAFETY: f64 = 0.8;
 const SHRINK: f64 = 0.05;
 const GROW: f64 = 4.0;
+/// Between the last equilibrium and where nothing holds any more lies at most this share of an increment: stretches beyond a limit
+/// take long.
+const LIMIT: f64 = 0.05;
 /// A part found in at most so many iterations may be followed by a larger one.
 const EASY: usize = 8;
 
@@ -42,10 +45,14 @@ pub(super) fn advance(
     at: &mut StepProgress,
 ) -> Result<Outcome<usize>> {
     let (mut iterations, mut failed, mut cut) = (0, 0, false);
+    let mut beyond = None;
     let before = analysis.totals.parts;
     while at.load_factor < leg.goal {
         let parts = analysis.totals.parts - before;
         analysis.clock.tell(PartNow { load_factor: at.load_factor, parts, iterations });
+        if let Some(why) = stopped(&analysis.stop) {
+            return Ok(Outcome::Retry(Unconverged { iterations, ..why }));
+        }
         let from = at.load_factor;
         let to = if from + 1.001 * at.width >= leg.goal { leg.goal } else { from + at.width };
         let load = leg.start.at(to)?;
@@ -93,7 +100,7 @@ pub(super) fn advance(
             continue;
         }
         failed = 0;
-        match viscous(analysis, leg, at, to - from)? {
+        match stretch(analysis, leg, at, to - from, &mut beyond)? {
             Outcome::Converged(more) => iterations += more,
             Outcome::Retry(why) => {
                 return Ok(Outcome::Retry(Unconverged { iterations: iterations + why.iterations, ..why }));
@@ -101,6 +108,49 @@ pub(super) fn advance(
         }
     }
     Ok(Outcome::Converged(iterations))
+}
+
+/// Knowledge of where nothing holds.
+struct Beyond {
+    /// The least load factor at which nothing has held, and why.
+    limit: f64,
+    why: Unconverged,
+    /// The next stretch, in load factors.
+    next: f64,
+}
+
+/// A viscous stretch to the increment's end; if nothing holds there, short ones that grow as long as something does: what ends a run
+/// is the limit load, and not where the last stretch began. Beyond the limit a stretch takes long, before it short.
+fn stretch(
+    analysis: &mut Analysis,
+    leg: &LoadIncrement,
+    at: &mut StepProgress,
+    width: f64,
+    beyond: &mut Option<Beyond>,
+) -> Result<Outcome<usize>> {
+    let (from, shortest) = (at.load_factor, LIMIT * leg.part);
+    let mut iterations = 0;
+    loop {
+        let goal = match beyond {
+            None => leg.goal,
+            Some(Beyond { limit, why, .. }) if *limit - from < shortest => {
+                return Ok(Outcome::Retry(Unconverged { iterations, ..why.clone() }));
+            }
+            Some(Beyond { limit, next, .. }) => from + next.min(0.5 * (*limit - from)),
+        };
+        match viscous(analysis, &LoadIncrement { goal, ..*leg }, at, width.min(goal - from))? {
+            Outcome::Converged(more) => {
+                beyond.iter_mut().for_each(|beyond| beyond.next *= 2.0);
+                return Ok(Outcome::Converged(iterations + more));
+            }
+            Outcome::Retry(why) if stopped(&analysis.stop).is_some() => return Ok(Outcome::Retry(why)),
+            Outcome::Retry(why) => {
+                iterations += why.iterations;
+                let limit = if goal - from <= shortest { from } else { goal }; // near enough
+                *beyond = Some(Beyond { limit, why, next: shortest });
+            }
+        }
+    }
 }
 
 /// Share of a part up to the first point that cracks in it.

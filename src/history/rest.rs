@@ -2,6 +2,7 @@
 
 use super::analysis::Analysis;
 use super::equilibrium::Viscous;
+use super::failure::stopped;
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use super::stretch::{Motion, ViscousStretch, by_laws_alone, creep};
@@ -42,6 +43,9 @@ pub(super) fn rest(
     let (mut ahead, mut before, mut left) = (0.0, f64::INFINITY, f64::INFINITY);
     let (mut free, mut spent, mut refused) = (0, 0, false);
     for k in 0..STEPS {
+        if let Some(why) = stopped(&analysis.stop) {
+            return Ok(Outcome::Retry(why));
+        }
         if c > 100.0 * stiffness || free >= FREE && spent >= FREE_ITERATIONS {
             break;
         }

@@ -11,7 +11,9 @@
 //! soon as c is above the softening. A stretch ends with an equilibrium of the laws alone.
 
 use super::analysis::{Analysis, complete};
+use super::clock::PartNow;
 use super::equilibrium::Viscous;
+use super::failure::stopped;
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use super::rest::{EASY, FACTOR, NEAR, rest};
@@ -78,6 +80,10 @@ fn creep_on(
     let most_bent = BEND * analysis.problem.solution.path_tolerance;
     let (mut step, mut last) = ((FIRST * width).min(LONGEST), 0.0);
     loop {
+        if let Some(why) = stopped(&analysis.stop) {
+            return Ok(Outcome::Retry(why));
+        }
+        tell_stretch(analysis, at, stretch);
         let at_goal = at.load_factor >= leg.goal;
         if at_goal || wait == 0 {
             let load = leg.start.at(at.load_factor)?;
@@ -126,6 +132,12 @@ fn creep_on(
             }
         }
     }
+}
+
+/// Tells how far a stretch has come.
+pub(super) fn tell_stretch(analysis: &Analysis, at: &StepProgress, stretch: &ViscousStretch) {
+    let (parts, iterations) = (stretch.work.len(), stretch.iterations);
+    analysis.clock.tell(PartNow { load_factor: at.load_factor, parts, iterations });
 }
 
 /// η, the largest stiffness and the steepest softening of all laws [stress / length].

@@ -9,6 +9,7 @@ mod admissible;
 mod balance;
 mod closure;
 mod cohesive;
+mod condition;
 mod coulomb;
 mod cracking;
 #[cfg(test)]
@@ -26,6 +27,7 @@ mod variable;
 pub use admissible::Inadmissible;
 pub use closure::Closure;
 pub use cohesive::{Cohesive, MixedMode, NamedSoftening, Softening};
+pub use condition::Condition;
 pub use coulomb::{Coulomb, LossOfCohesion};
 pub use cracking::{Cracking, Unloading, WORK};
 pub use elastic::Elastic;

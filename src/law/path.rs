@@ -144,7 +144,7 @@ pub fn columns(law: &Law) -> String {
     let own: String = law.variables().iter().map(|variable| format!("{},", variable.name)).collect();
     format!(
         "s,jump_n,jump_t,traction_n,traction_t,{own}jump_n_plastic,jump_t_plastic,\
-         tensile_strength,cohesion,tan_friction,status"
+         tensile_strength,cohesion,tan_friction,status,condition"
     )
 }
 
@@ -207,7 +207,7 @@ pub fn write_csv(law: &Law, rows: &[PathRow], mut out: impl Write) -> io::Result
             }
             None => write!(out, ",,,")?,
         }
-        writeln!(out, ",{}", state.status)?;
+        writeln!(out, ",{},{}", state.status, law.condition(state) as u8)?;
     }
     Ok(())
 }

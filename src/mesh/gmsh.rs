@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use super::log;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Stop};
 
 /// The mesher and how long it may take.
 #[derive(Debug)]
@@ -18,6 +18,8 @@ pub struct Gmsh {
     /// Time limit of one run.
     limit: Duration,
     version: OnceLock<String>,
+    /// A request to stop, which ends it.
+    stop: Stop,
 }
 
 /// A run of gmsh.
@@ -74,7 +76,12 @@ impl Gmsh {
         // gmsh runs beside its .geo: a path, unlike a bare name, is relative to where midplane runs
         let is_path = program.components().count() > 1;
         let program = if is_path { std::path::absolute(&program).unwrap_or(program) } else { program };
-        Gmsh { program, limit, version: OnceLock::new() }
+        Gmsh { program, limit, version: OnceLock::new(), stop: Stop::default() }
+    }
+
+    /// The same, ended when it is asked to stop.
+    pub fn until(self, stop: &Stop) -> Gmsh {
+        Gmsh { stop: stop.clone(), ..self }
     }
 
     /// The version gmsh states; asked once.
@@ -141,11 +148,14 @@ impl Gmsh {
             .stderr(errors)
             .spawn();
         let mut child = child.map_err(|source| self.unavailable(&source))?;
-        let waited = wait(&mut child, self.limit);
+        let waited = wait(&mut child, self.limit, &self.stop);
         if !matches!(waited, Ok(Some(_))) {
             // killing fails only if it has ended by itself
             let _ = child.kill();
             let _ = child.wait();
+        }
+        if let Some(signal) = self.stop.requested() {
+            return Err(Error::Stopped { signal, kept: 0, folder: PathBuf::new() });
         }
         let lines = || {
             let text = std::fs::read(&log).unwrap_or_default();
@@ -186,13 +196,16 @@ impl Gmsh {
     }
 }
 
-/// The exit status, or nothing if `limit` passes first. Asks now and then: a signal handler would concern all threads.
-fn wait(child: &mut Child, limit: Duration) -> std::io::Result<Option<ExitStatus>> {
+/// The exit status, or nothing if `limit` passes first or somebody wants it to stop. Asks now and then: a signal handler would concern all threads.
+fn wait(child: &mut Child, limit: Duration, stop: &Stop) -> std::io::Result<Option<ExitStatus>> {
     let start = Instant::now();
     let mut pause = Duration::from_millis(1);
     loop {
         if let Some(status) = child.try_wait()? {
             return Ok(Some(status));
+        }
+        if stop.requested().is_some() {
+            return Ok(None);
         }
         let Some(left) = limit.checked_sub(start.elapsed()) else { return Ok(None) };
         std::thread::sleep(pause.min(left));

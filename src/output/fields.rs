@@ -126,6 +126,14 @@ pub(super) fn interface(
     point_data.extend(own);
     point_data.extend([
         Array::int("status", states.iter().map(|state| if is_absent { -1 } else { i64::from(state.status) })),
+        Array::int(
+            "condition",
+            states.iter().enumerate().map(
+                |(p, state)| {
+                    if is_absent { -1 } else { laws.at(p).condition(state) as i64 }
+                },
+            ),
+        ),
         Array::float("length", 1, points.iter().map(|p| p.weight)),
         Array::float("normal", 3, points.iter().flat_map(|p| p.rotation[0])),
     ]);

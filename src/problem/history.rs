@@ -131,9 +131,11 @@ pub(super) fn steps(
             water,
         };
         step.check(model)?;
-        if step.control != Control::Load && step.follows_load_factor() {
-            let what = "the path of equilibria cannot be followed while a formula holds load_factor";
-            let help = "ramp loads and displacements, or set \"control\": \"load\"";
+        if step.control != Control::Load && !step.is_affine() {
+            let what = "the path of equilibria cannot be followed while a formula bends with load_factor";
+            let help = "let loads grow in proportion, such as \"60 + 20*load_factor\", in several steps where they bend \
+                        (a load without load_factor goes from where the step before left it to what it states); or set \
+                        \"control\": \"load\"";
             return Err(scene.source.error_at(&["steps", &index, "control"], what, help));
         }
         steps.push(step);

@@ -119,6 +119,11 @@ impl BoundLoad {
         self.values.iter().any(|value| value.uses(Variable::LoadFactor))
     }
 
+    /// True if it is affine in load_factor.
+    pub(super) fn is_affine(&self) -> bool {
+        self.values.iter().all(Quantity::is_affine)
+    }
+
     /// True if it has no nodal force at any of the load factors of a step.
     pub(super) fn is_zero(&self, model: &Model, increments: usize) -> Result<bool> {
         let both = self.values.each_ref().map(Quantity::constant);

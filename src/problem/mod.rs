@@ -16,6 +16,7 @@ mod initial;
 mod interface;
 mod joint_probes;
 mod load;
+mod orient;
 mod parts;
 mod plan;
 mod point_laws;

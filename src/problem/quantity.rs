@@ -35,6 +35,11 @@ impl Quantity {
         self.value.uses(variable)
     }
 
+    /// True if it is affine in the load factor.
+    pub(super) fn is_affine(&self) -> bool {
+        self.value.is_affine_in(Variable::LoadFactor)
+    }
+
     /// Its value at a place, which must be finite.
     pub(super) fn at(&self, place: &FormulaPlace) -> Result<f64> {
         let value = self.value.at(place);

@@ -12,6 +12,7 @@ use super::unjoined::Connectivity;
 use super::{BoundInterface, BoundStep};
 use crate::assembly::{Model, RigidMotions};
 use crate::error::{Code, Error, Result, Warning};
+use crate::solver::lowest_below;
 
 /// A motion is free if its resistance is below this. Of the largest resistance.
 const FREE: f64 = 1e-12;
@@ -59,7 +60,7 @@ pub(super) fn check_free_subdomains(
 ) -> Result<Option<Warning>> {
     let (c, each) = (model.components, RigidMotions::most(model.components));
     let (parts, part_of, hinges) = parts(model, connectivity);
-    let mut gram = DMatrix::<f64>::zeros(each * parts.len(), each * parts.len());
+    let mut gram: Vec<(usize, usize, f64)> = Vec::new();
     for (p, part) in parts.iter().enumerate() {
         for d in 0..c {
             let constrained: Vec<usize> =
@@ -69,7 +70,7 @@ pub(super) fn check_free_subdomains(
                 let row: Vec<f64> = (0..each).map(|mode| part.value(model, mode, node, d)).collect();
                 for i in 0..each {
                     for j in 0..each {
-                        gram[(each * p + i, each * p + j)] += share * row[i] * row[j];
+                        gram.push((each * p + i, each * p + j, share * row[i] * row[j]));
                     }
                 }
             }
@@ -83,7 +84,7 @@ pub(super) fn check_free_subdomains(
             let row = [of(one, 1.0), of(two, -1.0)].concat();
             for &(i, own) in &row {
                 for &(j, other) in &row {
-                    gram[(i, j)] += own * other;
+                    gram.push((i, j, own * other));
                 }
             }
         }
@@ -116,15 +117,17 @@ pub(super) fn check_free_subdomains(
         for (i, jump_i) in &jumps {
             for (j, jump_j) in &jumps {
                 let sum: f64 = (0..jump_i.len()).map(|k| resists[k % c] * jump_i[k] * jump_j[k]).sum();
-                gram[(*i, *j)] += sum;
+                gram.push((*i, *j, sum));
             }
         }
     }
-    let limit = FREE * gram.diagonal().max().max(f64::MIN_POSITIVE);
+    let mut diagonal = vec![0.0; each * parts.len()];
+    gram.iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, value)| diagonal[i] += value);
+    let limit = FREE * diagonal.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     // a pure motion reads better than a combination
     for (p, part) in parts.iter().enumerate() {
         for mode in 0..each {
-            if gram[(each * p + mode, each * p + mode)] <= limit {
+            if diagonal[each * p + mode] <= limit {
                 let mode = match ["x", "y", "z"][..c].get(mode) {
                     Some(axis) => format!("translation in {axis}"),
                     None => format!("rotation about {}", place(&part.motions.centre)),
@@ -133,18 +136,15 @@ pub(super) fn check_free_subdomains(
             }
         }
     }
-    let eigen = SymmetricEigen::new(gram);
-    let (least, value) = eigen.eigenvalues.argmin();
-    if value > limit / FREE * HARDLY {
+    let Some((value, mode)) = lowest_below(diagonal.len(), &gram, limit / FREE * HARDLY, limit) else {
         return Ok(None);
-    }
-    let mode = eigen.eigenvectors.column(least);
-    let share = |p: usize| mode.rows(each * p, each).norm();
+    };
+    let own = |p: usize| &mode[each * p..each * (p + 1)];
+    let share = |p: usize| own(p).iter().copied().fold(0.0, f64::hypot);
     let largest = (0..parts.len()).map(share).fold(0.0, f64::max);
     let mut moving: Vec<usize> = (0..parts.len()).filter(|&p| share(p) > 1e-3 * largest).collect();
     moving.sort_by(|&p, &q| share(q).total_cmp(&share(p)));
-    let own = mode.rows(each * moving[0], each);
-    let text = told(&parts[moving[0]].motions, own.as_slice());
+    let text = told(&parts[moving[0]].motions, own(moving[0]));
     if value <= limit {
         return Err(free(model, connectivity, &parts, &moving, text));
     }

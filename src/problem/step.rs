@@ -117,6 +117,13 @@ impl BoundStep {
             || self.water.as_ref().is_some_and(|water| water.follows_load_factor())
     }
 
+    /// True if loads and displacements are affine in the load factor, so that the path of equilibria can be followed.
+    pub fn is_affine(&self) -> bool {
+        self.changing.iter().all(|load| load.is_affine())
+            && self.moving.iter().all(|moving| moving.value.is_affine())
+            && self.water.as_ref().is_none_or(|water| !water.follows_load_factor())
+    }
+
     /// Asks every formula in load_factor at every increment, so that none fails half-way.
     pub(super) fn check(&self, model: &Model) -> Result<()> {
         self.water.iter().try_for_each(|water| water.check(model, self.increments))?;

@@ -19,7 +19,7 @@ use results::Results;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::error::{Error, Result, Warning};
+use crate::error::{Error, Result, Stop, Warning};
 use crate::history::{Clock, Equations, History, Means, ModelState, StageNow, Totals, memory};
 use crate::output::HistoryRow;
 use crate::problem::Problem;
@@ -38,13 +38,16 @@ pub struct Options {
     pub gmsh: PathBuf,
     /// Time limit for one run of the mesher.
     pub gmsh_limit: Duration,
+    /// A request to stop: the run ends with what has converged.
+    pub stop: Stop,
 }
 
 impl Options {
     /// A scene with gmsh as it is found and nothing else set.
     pub fn of(scene: &Path) -> Options {
         let (gmsh, gmsh_limit) = ("gmsh".into(), Duration::from_secs(600));
-        Options { scene: scene.into(), out: None, settings: Vec::new(), gmsh, gmsh_limit }
+        let (out, settings, stop) = (None, Vec::new(), Stop::default());
+        Options { scene: scene.into(), out, settings, gmsh, gmsh_limit, stop }
     }
 }
 
@@ -115,13 +118,17 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
     let Prepared { scene, name, problem, folder, mut clock } =
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
-    let means = Means { cache: shared.map(|shared| shared.cache.clone()), ..Means::default() };
+    let cache = shared.map(|shared| shared.cache.clone());
+    let means = Means { cache, stop: options.stop.clone(), ..Means::default() };
     let equations = Equations::new(&problem, means, &mut clock)?;
     let mut history = History::new(&problem, &equations, clock);
     let mut results = Results::new(&scene, &name, &problem, folder);
     let end = match follow(&mut history, &mut results, listen) {
         Ok(()) => None,
         Err(end @ Error::NoEquilibrium { .. }) => Some(end),
+        Err(Error::Stopped { signal, kept, .. }) => {
+            Some(Error::Stopped { signal, kept, folder: path.clone() })
+        }
         Err(other) => return Err(other),
     };
     equations.reused().iter().for_each(|what| listen(Event::Reused(what)));

@@ -106,7 +106,7 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     let meshed = match shared {
         Some(shared) => shared.mesh_all(&jobs)?,
         None => {
-            let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit);
+            let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit).until(&options.stop);
             mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?
         }
     };

@@ -1,7 +1,7 @@
 //! Presets: one word for the knobs that trade speed for accuracy. What a scene states stays; `--set` has the last word.
 //!
 //! ```text
-//!   density      parameters listed in the scene's `density` × factor; whole numbers stay whole, even ones even
+//!   refinement   parameters listed in the scene's `refinement` × factor; whole numbers stay whole, even ones even
 //!   order        the parameter `order` of every .geo that declares it
 //!   coupling, tolerance, law_tolerance, path_tolerance      where the scene states none
 //!   increments   × factor, for steps that have several
@@ -28,7 +28,7 @@ pub fn parse_scene(file: PathBuf, text: String, settings: &[String]) -> Result<S
 /// Changes the text of a scene to a preset. What is not as it should be is left to the validation.
 fn apply(scene: &mut Value, source: &Source, accuracy: Accuracy) -> Result<()> {
     let preset = accuracy.preset();
-    multiply_densities(scene, source, preset.density)?;
+    refine(scene, source, preset.refinement)?;
     set_order(scene, source, preset.order)?;
     let default = |value: Option<&mut Value>, key: &str, to: Value| {
         if let Some(object) = value.and_then(Value::as_object_mut) {
@@ -51,8 +51,8 @@ fn apply(scene: &mut Value, source: &Source, accuracy: Accuracy) -> Result<()> {
     Ok(())
 }
 
-fn multiply_densities(scene: &mut Value, source: &Source, factor: f64) -> Result<()> {
-    let listed: Vec<String> = scene["density"]
+fn refine(scene: &mut Value, source: &Source, factor: f64) -> Result<()> {
+    let listed: Vec<String> = scene["refinement"]
         .as_array()
         .map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_str).map(str::to_string).collect());
     for (i, name) in listed.iter().enumerate() {
@@ -66,7 +66,7 @@ fn multiply_densities(scene: &mut Value, source: &Source, factor: f64) -> Result
                 let help = format!(
                     "write DefineConstant[ {parameter} = 8 ] in its .geo, or set it in \"parameters\""
                 );
-                source.error_at(&["density", &i.to_string()], what, help)
+                source.error_at(&["refinement", &i.to_string()], what, help)
             })?,
         };
         set_parameter(subdomain, parameter, scaled(value, factor));

@@ -62,6 +62,9 @@ struct InterfaceSize {
 #[derive(Debug, Serialize)]
 struct SolutionSummary {
     increments: usize,
+    /// Rows of history.csv, that of the unloaded state among them, and states whose fields are stored.
+    rows: usize,
+    fields: usize,
     iterations: usize,
     /// Parts in which the increments were found.
     parts: usize,
@@ -146,7 +149,7 @@ pub(super) fn summary<'a>(
     scene: &'a Scene,
     name: &'a str,
     problem: &'a Problem,
-    totals: &Totals,
+    (totals, [rows, fields]): (&Totals, [usize; 2]),
     equilibrium: Balance,
     clock: &Clock,
     stopped: Option<String>,
@@ -179,6 +182,8 @@ pub(super) fn summary<'a>(
         variables: problem.variables().collect(),
         solution: SolutionSummary {
             increments: totals.increments,
+            rows,
+            fields,
             iterations: totals.iterations,
             parts: totals.parts,
             rejected: totals.rejected,

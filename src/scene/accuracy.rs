@@ -13,7 +13,7 @@ pub enum Accuracy {
     Draft,
     /// The fastest within 1 % on all of them.
     Normal,
-    /// One digit more: the density of the scene's own files.
+    /// One digit more: the refinement of the scene's own files.
     Fine,
 }
 
@@ -21,7 +21,7 @@ pub enum Accuracy {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preset {
     /// Factor on the parameters that the scene lists.
-    pub density: f64,
+    pub refinement: f64,
     /// Order of the elements.
     pub order: u8,
     /// Coupling of unmatched sides.
@@ -44,8 +44,8 @@ impl Accuracy {
     /// Its values.
     pub fn preset(self) -> Preset {
         let coupling = CouplingKind::Projected;
-        let preset = |density, order, tolerance, law_tolerance, path_tolerance, increments| Preset {
-            density,
+        let preset = |refinement, order, tolerance, law_tolerance, path_tolerance, increments| Preset {
+            refinement,
             order,
             coupling,
             tolerance,

@@ -27,13 +27,13 @@ impl Scene {
             self.check_step(&i.to_string(), step)?;
         }
         self.check_stages()?;
-        for (i, name) in self.density.iter().enumerate() {
+        for (i, name) in self.refinement.iter().enumerate() {
             let (subdomain, parameter) = split_group(name);
             if parameter.is_none() || !self.subdomains.contains_key(subdomain) {
                 let what = format!("\"{name}\" is no parameter of a subdomain");
                 let help = name_help(subdomain, self.subdomains.keys().map(String::as_str));
                 let help = format!("write <subdomain>.<parameter>; {help}");
-                return Err(self.source.error_at(&["density", &i.to_string()], what, help));
+                return Err(self.source.error_at(&["refinement", &i.to_string()], what, help));
             }
         }
         self.check_columns()?;

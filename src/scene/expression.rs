@@ -5,7 +5,7 @@
 
 use super::grammar;
 pub use super::op::{FormulaFault, FormulaPlace, Variable};
-use super::op::{Op, STACK, derivative, evaluate};
+use super::op::{Op, STACK, derivative, evaluate, is_affine};
 use super::random::RandomField;
 
 /// A compiled formula.
@@ -66,6 +66,11 @@ impl Expression {
             Op::Random(_) => place,
             _ => false,
         })
+    }
+
+    /// True if it is affine in a variable, wherever it is asked.
+    pub fn is_affine_in(&self, variable: Variable) -> bool {
+        is_affine(&self.code, variable)
     }
 
     /// Its value at a place; not finite where the formula is not defined.
@@ -150,6 +155,29 @@ mod tests {
         let expression = Expression::parse("2*pi*x").unwrap();
         assert_eq!(expression.code.len(), 3);
         assert!(expression.uses(Variable::X) && !expression.uses(Variable::S));
+    }
+
+    /// Claim: what is called affine is so, to rounding, at any place; what is not is not called so.
+    #[test]
+    fn affine_formulas_are_told_from_others() {
+        for (text, expected) in [
+            ("9.81e-3*(60 + 20*load_factor - y)", true),
+            ("-load_factor/(1 + x^2) + sin(y)*load_factor*3", true),
+            ("if(x > 0.5, 1, 2)*(1 - load_factor)", true),
+            ("x + y", true),
+            ("max(0, 60*load_factor - y)", false),
+            ("load_factor*load_factor", false),
+            ("1/(1 + load_factor)", false),
+            ("load_factor^1", false),
+            ("(load_factor > 0.5)*x", false),
+        ] {
+            let formula = Expression::parse(text).unwrap();
+            assert_eq!(formula.is_affine_in(Variable::LoadFactor), expected, "{text}");
+            let at = |load_factor: f64| formula.at(&FormulaPlace { load_factor, ..PLACE });
+            let bend = at(0.0) - 2.0 * at(0.5) + at(1.0);
+            assert!(!expected || bend.abs() < 1e-14, "{text}: {bend:e}");
+        }
+        assert!(Expression::parse("load_factor^2*x").unwrap().is_affine_in(Variable::X));
     }
 
     /// Claim: derivatives are those of central differences, for every function and operator, alone and nested.

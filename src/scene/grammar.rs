@@ -130,7 +130,7 @@ impl<'a> Parser<'a> {
         }
         self.power()?;
         if negative {
-            self.emit(Op::One(|a| -a, |_| -1.0));
+            self.emit(Op::Negate);
         }
         self.depth -= 1;
         Ok(())

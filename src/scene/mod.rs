@@ -83,7 +83,7 @@ pub struct Scene {
     pub accuracy: Option<Accuracy>,
     /// Parameters of `.geo` files that `accuracy` multiplies, `<subdomain>.<name>`: counts, of which more is finer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub density: Vec<String>,
+    pub refinement: Vec<String>,
     /// Results that are written.
     #[serde(default)]
     pub output: Output,

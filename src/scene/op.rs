@@ -71,6 +71,7 @@ pub(super) enum Op {
     Subtract,
     Multiply,
     Divide,
+    Negate,
     /// With its derivative, as those of two and three operands.
     One(fn(f64) -> f64, fn(f64) -> f64),
     Two(fn(f64, f64) -> f64, ByTwo),
@@ -82,7 +83,7 @@ impl Op {
     pub(super) fn takes(&self) -> usize {
         match self {
             Op::Number(_) | Op::Variable(_) | Op::Random(_) | Op::Column(_) => 0,
-            Op::One(..) => 1,
+            Op::Negate | Op::One(..) => 1,
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Two(..) => 2,
             Op::Three(..) => 3,
         }
@@ -159,10 +160,32 @@ fn evaluate_one(op: &Op, [a, b, c]: [f64; 3], fields: &[RandomField], place: &Fo
         Op::Subtract => a - b,
         Op::Multiply => a * b,
         Op::Divide => a / b,
+        Op::Negate => -a,
         Op::One(f, _) => f(a),
         Op::Two(f, _) => f(a, b),
         Op::Three(f, _) => f(a, b, c),
     }
+}
+
+/// True if postfix code is affine in a variable: it is only added to, subtracted from, multiplied and divided by what does not depend
+/// on it.
+pub(super) fn is_affine(code: &[Op], by: Variable) -> bool {
+    let mut depends: Vec<bool> = Vec::new();
+    for op in code {
+        let operands = depends.split_off(depends.len() - op.takes());
+        let any = operands.contains(&true);
+        let is_affine = match op {
+            Op::Multiply => operands != [true, true],
+            Op::Divide => !operands[1],
+            Op::One(..) | Op::Two(..) | Op::Three(..) => !any,
+            _ => true,
+        };
+        if !is_affine {
+            return false;
+        }
+        depends.push(any || matches!(op, Op::Variable(variable) if *variable == by));
+    }
+    true
 }
 
 /// The derivative of postfix code by a variable, by the chain rule; one-sided where there is a kink.
@@ -181,6 +204,7 @@ pub(super) fn derivative(code: &[Op], fields: &[RandomField], place: &FormulaPla
             Op::Variable(variable) => f64::from(u8::from(variable == by)),
             Op::Add => by_operand(0) + by_operand(1),
             Op::Subtract => by_operand(0) - by_operand(1),
+            Op::Negate => -by_operand(0),
             Op::Multiply => times(at(1), 0) + times(at(0), 1),
             Op::Divide => times(1.0 / at(1), 0) - times(value / at(1), 1),
             Op::One(_, slope) => times(slope(at(0)), 0),

@@ -33,6 +33,10 @@ pub fn parse(
         settings.iter().try_for_each(|setting| set::apply(value, setting, &source.file))
     };
     let set = |value: &mut Value, source: &Source| {
+        if value.get("density").is_some() {
+            let help = "call it \"refinement\": \"density\" is that of a material";
+            return Err(source.error_at(&["density"], "a mesh has no density", help));
+        }
         // the preset may come by a setting, and settings come on top of it
         let mut wanted = value.clone();
         set_all(&mut wanted, source)?;

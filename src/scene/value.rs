@@ -47,6 +47,14 @@ impl Value {
         *self == Value::Number(0.0)
     }
 
+    /// True if the value is affine in a variable.
+    pub fn is_affine_in(&self, variable: Variable) -> bool {
+        match self {
+            Value::Number(_) => true,
+            Value::Expression(expression) => expression.is_affine_in(variable),
+        }
+    }
+
     /// True if the value depends on a variable.
     pub fn uses(&self, variable: Variable) -> bool {
         match self {

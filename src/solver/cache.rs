@@ -1,4 +1,4 @@
-//! Bodies that several runs of one process share: a study of k by k densities condenses 2k bodies, not 2k².
+//! Bodies that several runs of one process share: a study of k by k meshes condenses 2k bodies, not 2k².
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};

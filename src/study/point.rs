@@ -119,7 +119,7 @@ pub(super) fn run_once(
             let stages = done.clock.stages().iter().map(|&(name, seconds)| (name.to_string(), seconds));
             ("done", String::new(), stages.collect())
         }
-        Err(error) if error.exit_code() == 4 => return Err(error),
+        Err(error) if error.exit_code() == 4 || matches!(error, Error::Stopped { .. }) => return Err(error),
         Err(error @ Error::NoEquilibrium { .. }) => {
             let status = if gauge.seeks_limit() { LIMIT } else { "stopped" };
             (status, error.to_string(), IndexMap::new())

@@ -9,7 +9,7 @@ use super::forms::{bases, blocks, condensed, plain};
 use super::linear::LinearEngine;
 use super::strategy::{Operations, choose, condensed_interfaces};
 use crate::assembly::{Pattern, Symmetric};
-use crate::error::Result;
+use crate::error::{Result, Stop};
 use crate::history::{Clock, memory};
 use crate::problem::Problem;
 use crate::scene::{Solution, Strategy, Tangent};
@@ -30,12 +30,14 @@ pub struct Means {
     pub memory: Option<u64>,
     /// Bodies shared with other runs.
     pub cache: Option<Arc<SubdomainCache>>,
+    /// A request to stop, looked at between parts.
+    pub stop: Stop,
 }
 
 impl Default for Means {
     /// All memory there is, nothing shared.
     fn default() -> Means {
-        Means { memory: memory::available(), cache: None }
+        Means { memory: memory::available(), cache: None, stop: Stop::default() }
     }
 }
 
@@ -48,6 +50,8 @@ pub struct Equations<'a> {
     /// Base stiffness at the law points of every interface.
     stiffness: Vec<Vec<f64>>,
     matrices: Matrices,
+    /// A request to stop.
+    pub(in crate::history) stop: Stop,
     /// Way in which they are solved.
     pub(in crate::history) method: Method,
     /// Work of all forms, where there is a choice.
@@ -69,7 +73,7 @@ enum Matrices {
 impl<'a> Equations<'a> {
     /// Assembles what the scene's strategy asks for, within the means.
     pub fn new(problem: &'a Problem, means: Means, clock: &mut Clock) -> Result<Equations<'a>> {
-        let Means { memory: available, cache } = means;
+        let Means { memory: available, cache, stop } = means;
         clock.begin("assemble");
         let (model, strategy) = (&problem.model, problem.solution.strategy);
         let dofs = model.dofs();
@@ -92,6 +96,7 @@ impl<'a> Equations<'a> {
                 condensed_interfaces,
                 stiffness,
                 matrices,
+                stop,
                 method,
                 operations: None,
                 factor_entries,
@@ -118,6 +123,7 @@ impl<'a> Equations<'a> {
                     condensed_interfaces,
                     stiffness,
                     matrices,
+                    stop,
                     method,
                     operations,
                     factor_entries,
@@ -134,6 +140,7 @@ impl<'a> Equations<'a> {
             condensed_interfaces,
             stiffness,
             matrices,
+            stop,
             method,
             operations,
             factor_entries,
