@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 from trade_compare import repeatability, together
-from trade_extras import refinements, features, penalty
+from trade_extras import features, penalty, refinements
 from trade_front import MARGINS, candidates, front, label, tie
 from trade_history import curves
 from trade_machine import machine, mesher, pin
@@ -82,7 +82,7 @@ class Campaign:
         run = point["processor"] or wall
         errors = point["errors"]
         deciding = [errors[name] for name in self.scene.errors if name in errors]
-        failed = point["status"] != "done" or any(error is None for error in deciding)
+        failed = point["status"] not in ("done", "limit") or any(error is None for error in deciding)
         return {
             "phase": phase,
             "labels": labels,
@@ -121,6 +121,9 @@ class Campaign:
 
     def table(self):
         table = knobs(self.scene)
+        if self.scene.swept:
+            table = {name: table[name] for name in self.scene.swept}
+            table["element"] = {name: table["element"][name] for name in ("T6", "Q8")}
         if self.form == "reduced":
             table["refinement"] = {k: v for k, v in table["refinement"].items() if v <= SMALL}
         return table
@@ -198,17 +201,22 @@ def run_scene(program, scene, out, form, robust):
     campaign = Campaign(program, scene, out, form)
     start = time.monotonic()
     spans = campaign.sweep()
-    campaign.hypercube(count)
+    if not scene.swept:
+        campaign.hypercube(count)
     knob_pair = ["refinement", "element"]
     movers = sorted(spans, key=spans.get, reverse=True)[:2]
     campaign.factorial("factorial", knob_pair)
-    if set(movers) != set(knob_pair) and form != "reduced":
+    if set(movers) != set(knob_pair) and form != "reduced" and not scene.swept:
         campaign.factorial("factorial of the two that move most", movers)
-    # a single run may have been cold, or disturbed
-    campaign.repeats("again", candidates(campaign.points, scene.floor, MARGINS[0]), 1)
-    near = candidates(campaign.points, scene.floor, MARGINS[1])
-    # measured twice, one after the other
-    halves = [campaign.repeats(half, near, rounds) for half in ("first", "second")]
+    if scene.swept:  # its points are too long to be repeated
+        near = candidates(campaign.points, scene.floor, MARGINS[1])
+        halves, rounds = [near, near], 1
+    else:
+        # a single run may have been cold, or disturbed
+        campaign.repeats("again", candidates(campaign.points, scene.floor, MARGINS[0]), 1)
+        near = candidates(campaign.points, scene.floor, MARGINS[1])
+        # measured twice, one after the other
+        halves = [campaign.repeats(half, near, rounds) for half in ("first", "second")]
     pooled = [together(a, b) for a, b in zip(*halves)]
     repeats_csv(campaign.out / "repeats.csv", halves)
     chosen = front(pooled, scene.floor, statistics.median(tie(row) for row in pooled))

@@ -37,9 +37,10 @@ def ratios(front, rows, others, floor):
 def repeatability(front, halves, pooled, floor):
     """How far the two measurements of a campaign agree at its own front."""
     found, most = ratios(front, *halves, floor), statistics.median(spread(row) for row in pooled)
+    repeated = len(pooled) if halves[0] is not halves[1] else 0
     return {
         "points": len(front),
-        "repeated": len(pooled),
+        "repeated": repeated,
         "tie": statistics.median(tie(row) for row in pooled),
         "spread": most,
         "largest_ratio": max(found),

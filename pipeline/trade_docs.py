@@ -103,6 +103,7 @@ def presets(data):
             "measures": of.measures,
             "deciding": of.errors,
             "errors": errors,
+            "long": bool(of.swept),
         }
     return result
 

@@ -81,6 +81,7 @@ def presets_table(scenes):
             name,
             row["labels"]["accuracy"],
             percent(row["error"]),
+            ", ".join(f"{number} {percent(error)[0]}" for number, error in row["errors"].items()),
             cell(row["dofs"], 7),
             seconds(row["time"]),
             cell(relative(row["time"], scene), 2),
@@ -88,7 +89,7 @@ def presets_table(scenes):
         for name, scene in scenes.items()
         for row in scene["presets"]
     ]
-    return ["scene", "preset", "error", "dofs", "time [s]", "time / draft"], rows
+    return ["scene", "preset", "error", "of every number", "dofs", "time [s]", "time / draft"], rows
 
 
 def front_table(scene):
@@ -113,6 +114,9 @@ def repeatability_table(scenes):
     rows = []
     for name, scene in scenes.items():
         r = scene["repeatability"]
+        if not r["repeated"]:
+            rows.append([name, "not repeated: its runs are long", cell(r["points"]), "", "", "", ""])
+            continue
         measured = [percent(r["tie"]), percent(r["spread"]), cell(r["largest_ratio"])]
         rows.append([name, cell(r["repeated"]), cell(r["points"]), *measured, f"{r['agree']} of {r['points']}"])
     head = ["scene", "points near the front", "on it", "tie", "spread", "largest ratio of two measurements"]

@@ -17,10 +17,12 @@ fn errors_stay_within_one_and_a_half_of_the_recorded_ones() {
     for (name, scene) in recorded.as_object().unwrap() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("study.json");
+        // the finest of a long scene takes minutes; `make trade` runs it
+        let tested = &names[..if scene["long"] == true { 2 } else { 3 }];
         let study = json!({
             "scene": Path::new(ROOT).join(scene["scene"].as_str().unwrap()),
             "set": scene["set"],
-            "axes": { "accuracy": { "key": "accuracy", "values": names } },
+            "axes": { "accuracy": { "key": "accuracy", "values": tested } },
             "measures": scene["measures"],
         });
         std::fs::write(&file, study.to_string()).unwrap();
@@ -31,7 +33,7 @@ fn errors_stay_within_one_and_a_half_of_the_recorded_ones() {
         let done: Value = serde_json::from_str(&text).unwrap();
         let mut before = f64::INFINITY;
         for ((preset, within), point) in
-            names.iter().zip([0.1, 0.01, 0.001]).zip(done["points"].as_array().unwrap())
+            tested.iter().zip([0.1, 0.01, 0.001]).zip(done["points"].as_array().unwrap())
         {
             let error = |of: &Value| point["errors"][of.as_str().unwrap()].as_f64().unwrap_or(f64::INFINITY);
             let error = scene["deciding"].as_array().unwrap().iter().map(error).fold(0.0, f64::max);

@@ -125,7 +125,7 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
     let mut results = Results::new(&scene, &name, &problem, folder);
     let end = match follow(&mut history, &mut results, listen) {
         Ok(()) => None,
-        Err(end @ Error::NoEquilibrium { .. }) => Some(end),
+        Err(end @ Error::NoEquilibrium { .. }) => Some(presets::suspected(end, scene.accuracy)),
         Err(Error::Stopped { signal, kept, .. }) => {
             Some(Error::Stopped { signal, kept, folder: path.clone() })
         }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh;
 use crate::scene::{self, Accuracy, Scene, Source};
 
@@ -49,6 +49,25 @@ fn apply(scene: &mut Value, source: &Source, accuracy: Accuracy) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// A run that ends early under a preset says so: a coarser mesh or looser tolerances may be why.
+pub(super) fn suspected(end: Error, accuracy: Option<Accuracy>) -> Error {
+    let Some(accuracy) = accuracy else { return end };
+    let name = Accuracy::ALL.iter().find(|(_, preset)| *preset == accuracy).map_or("", |(name, _)| name);
+    let finer = match accuracy {
+        Accuracy::Draft => "\"normal\", \"fine\" or none",
+        Accuracy::Normal => "\"fine\" or none",
+        Accuracy::Fine => "none, or a finer mesh,",
+    };
+    match end {
+        Error::NoEquilibrium { step, increment, reason, kept } => {
+            let reason =
+                format!("{reason}; the preset \"{name}\" may be why, with {finer} it may go further");
+            Error::NoEquilibrium { step, increment, reason, kept }
+        }
+        other => other,
+    }
 }
 
 fn refine(scene: &mut Value, source: &Source, factor: f64) -> Result<()> {

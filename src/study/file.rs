@@ -113,7 +113,7 @@ pub enum Measure {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         reference: Option<f64>,
     },
-    /// A column of the history where the magnitude of another is largest.
+    /// A column of the history where the magnitude of another is largest: at the vertex of the parabola through its row and those beside.
     AtPeak {
         /// As for `last`.
         of: String,

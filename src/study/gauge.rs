@@ -7,6 +7,7 @@
 use indexmap::IndexMap;
 
 use super::file::{Field, Measure};
+use super::summit::Summit;
 use crate::assembly::Model;
 use crate::history::{ModelState, Totals};
 use crate::law::{Local, N, T};
@@ -22,6 +23,8 @@ pub(super) struct Gauge<'a> {
     measures: &'a IndexMap<String, Measure>,
     /// Values so far, with the magnitude of the peak where there is one.
     taken: Vec<(f64, f64)>,
+    /// Rows around the peaks of others.
+    summits: Vec<Summit>,
     /// Sizes and counts up to the last increment.
     pub(super) counts: IndexMap<&'static str, f64>,
     /// Way in which the equations are solved.
@@ -31,12 +34,15 @@ pub(super) struct Gauge<'a> {
 impl<'a> Gauge<'a> {
     pub(super) fn new(measures: &'a IndexMap<String, Measure>) -> Gauge<'a> {
         let taken = vec![(f64::NAN, -1.0); measures.len()];
-        Gauge { measures, taken, counts: IndexMap::new(), method: "" }
+        let summits = vec![Summit::default(); measures.len()];
+        Gauge { measures, taken, summits, counts: IndexMap::new(), method: "" }
     }
 
     /// Looks at an increment.
     pub(super) fn look(&mut self, row: &HistoryRow, totals: &Totals, problem: &Problem, state: &ModelState) {
-        for ((name, measure), taken) in self.measures.iter().zip(&mut self.taken) {
+        for (((name, measure), taken), summit) in
+            self.measures.iter().zip(&mut self.taken).zip(&mut self.summits)
+        {
             let column = |of: &str| value(row, problem, name, of);
             match measure {
                 Measure::Last { of, .. } => taken.0 = column(of),
@@ -47,10 +53,8 @@ impl<'a> Gauge<'a> {
                     }
                 }
                 Measure::AtPeak { of, peak_of, .. } => {
-                    let peak = column(peak_of).abs();
-                    if peak > taken.1 {
-                        *taken = (column(of), peak);
-                    }
+                    summit.take(column(of), column(peak_of));
+                    taken.0 = summit.place();
                 }
                 Measure::Reached { .. } => taken.0 = row.load_factor,
                 // the displacements of an increment whose fields are not stored may be missing; the last has them

@@ -15,6 +15,7 @@ mod outcome;
 mod plan;
 mod point;
 mod reference;
+mod summit;
 mod table;
 
 pub use file::{Axis, Design, Field, Measure, Process, Reference, Settings, Study, study_schema};
