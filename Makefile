@@ -152,6 +152,9 @@ bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve, scikit-fem, GetFEM, C
 	    -c benches/peers/requirements.txt meshio scipy || echo "$$peer: cannot be installed, skipped"; done
 	python3 benches/peers/compare.py $(MIDPLANE) .venv-peers/bin/python
 
+bench-strategies: $(MIDPLANE)  ## `strategy: auto` beside all others, on the gallery and walls up to a thousand bricks, ten minutes
+	python3 benches/strategies.py $(MIDPLANE)
+
 bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/BENCH.md
 	$(PYTHON) benches/plot.py $(BENCHED) -o docs/bench.png
 	python3 benches/table.py docs/BENCH.md $(BENCHED)
@@ -159,7 +162,7 @@ bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/
 
 TRADE := $(wildcard pipeline/trade_*.py)
 
-trade: results/trade/trade.html  ## speed against accuracy of five scenes, measured afresh, a quarter of an hour: results/trade/trade.html
+trade: results/trade/trade.html  ## speed against accuracy of six scenes, measured afresh, half an hour: results/trade/trade.html
 
 results/trade/trade.html: $(MIDPLANE) $(VENV) pipeline/trade.py $(TRADE) .FORCE | browser
 	$(PYTHON) pipeline/trade.py $(MIDPLANE) --fresh $(if $(FULL),--form full) -o results/trade

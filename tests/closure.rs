@@ -184,7 +184,10 @@ fn a_closure_is_instead_of_a_stiffness() {
         assert!(none.contains("law.normal_stiffness") && none.contains("no normal stiffness"), "{none}");
         let text = law(kind, more);
         let wrong = refused(&text.replace(&format!("\"maximum\": {V}"), "\"maximum\": 0"));
-        assert!(wrong.contains("law.closure.maximum") && wrong.contains("not more than zero"), "{wrong}");
+        assert!(
+            wrong.contains("law.closure.maximum") && wrong.contains("it must be more than zero"),
+            "{wrong}"
+        );
         let varies = refused(&text.replace(&format!("\"maximum\": {V}"), r#""maximum": "0.5 - x""#));
         assert!(varies.contains("law.closure.maximum") && varies.contains(" at (0."), "{varies}");
     }

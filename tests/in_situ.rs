@@ -23,7 +23,7 @@ const TOP: f64 = 15.0;
 const K0: f64 = 0.5;
 
 const CRACKING: &str = r#""type": "cracking", "normal_stiffness": 1e7, "tangential_stiffness": 1e7, "tensile_strength": 300,
-    "cohesion": 500, "tan_friction": 0.7, "fracture_energy_i": 0.1, "fracture_energy_iia": 1, "dilatancy_stress": 0"#;
+    "cohesion": 500, "tan_friction": 0.7, "fracture_energy_i": 10, "fracture_energy_iia": 100, "dilatancy_stress": 0"#;
 const COULOMB: &str =
     r#""type": "coulomb", "normal_stiffness": 1e7, "tangential_stiffness": 1e6, "friction_coefficient": 0.6"#;
 const ELASTIC: &str = r#""type": "elastic", "normal_stiffness": 1e7, "tangential_stiffness": 1e6"#;

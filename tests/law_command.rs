@@ -45,7 +45,7 @@ fn bad_input_is_refused_with_its_place() {
             "no interface \"jiont\"; there is joint. Did you mean \"joint\"?",
         ),
         (&["geo/shear/scene.json", "joint", "geo/shear/scene.json"], "geo/shear/scene.json:"),
-        (&["geo/shear/scene.json", "joint", "nowhere.json"], "cannot read nowhere.json"),
+        (&["geo/shear/scene.json", "joint", "nowhere.json"], "nowhere.json: there is no such file"),
         (
             &[
                 "geo/shear/scene.json",

@@ -95,7 +95,7 @@ fn patterns_that_fit_nothing_or_twice_are_refused() {
         ),
         (
             r#""fix": { "brick_*.lft": ["x"] }"#,
-            "no group is called like \"brick_*.lft\"; there is brick_1.bottom, brick_1.right",
+            "no group is called like \"brick_*.lft\"; did you mean \"brick_1.left\"? There is brick_1.bottom, brick_1.right",
         ),
         (
             r#""load": { "*.side*": { "pressure": 1 } }"#,
@@ -110,7 +110,7 @@ fn patterns_that_fit_nothing_or_twice_are_refused() {
             r#""gravity": { "bas": [0, -1] }"#,
             "no subdomain \"bas\"; there is base, brick_1, brick_2. Did you mean \"base\"?",
         ),
-        (r#""gravity": 9.81"#, "expected two numbers or formulas such as [0, -9.81]"),
+        (r#""gravity": 9.81"#, "it takes two numbers or formulas such as [0, -9.81]"),
     ] {
         let fixed = r#""fix": { "base.bottom": ["x", "y"] },"#;
         let fixed = if steps.contains("fix") { "" } else { fixed };

@@ -260,7 +260,10 @@ fn bad_input_is_refused_with_place_and_help() {
         (r#"{ "axis": {} }"#, "unknown key \"axis\"; there is $schema, title, scene, set, axes"),
         (r#"{ "scene": "no.json" }"#, "study.json:1 scene: there is no "),
         (r#"{ "repeat": 0 }"#, "repeat: 0 runs of every point"),
-        (r#"{ "set": { "planes": "stress" } }"#, "unknown key \"planes\"; there is "),
+        (
+            r#"{ "set": { "planes": "stress" } }"#,
+            "--set planes=\"stress\": unknown key \"planes\"; did you mean \"plane\"? There is ",
+        ),
         (r#"{ "axes": { "a": { "key": "thickness", "values": [1, -1] } } }"#, "thickness"),
         (
             r#"{ "measures": { "tip": { "take": "last", "of": "uper.displacement_y" } } }"#,

@@ -122,3 +122,30 @@ fn a_lining_that_comes_half_way_carries_what_is_left() {
     );
     println!("pressure on the lining {:.5} of {exact:.5}", -last.snapshot.tractions[1][3][0]);
 }
+
+/// Claim: joints of a ring that patterns make run the same way, whatever the order of its parts: side A before B counter-clockwise, and all
+/// from the outside inwards or all the other way round.
+#[test]
+fn sisters_of_a_ring_run_the_same_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/tunnel");
+    let mut options = midplane::run::Options::of(&scene);
+    options.out = Some(folder.path().join("out"));
+    let problem = midplane::run::prepare(&options, &mut |_| ()).unwrap().problem;
+    let centre = |b: usize| -> [f64; 2] {
+        let points = &problem.model.subdomains[b].mesh.points;
+        [0, 1].map(|d| points.iter().map(|x| x[d]).sum::<f64>() / points.len() as f64)
+    };
+    let radial = problem.model.interfaces.iter().filter(|interface| interface.name.starts_with("radial~"));
+    let inwards: Vec<bool> = radial
+        .map(|interface| {
+            let [a, b] = interface.subdomains.map(centre);
+            assert!(a[0] * b[1] - a[1] * b[0] > 0.0, "{}", interface.name);
+            let points = &interface.coupling.points;
+            let radius = |k: usize| points[k].position[0].hypot(points[k].position[1]);
+            radius(points.len() - 1) < radius(0)
+        })
+        .collect();
+    assert_eq!(inwards.len(), 6);
+    assert!(inwards.iter().all(|way| *way == inwards[0]), "{inwards:?}");
+}

@@ -56,12 +56,13 @@ pub(super) fn print(show: &Show, prepared: &Prepared) {
         ));
     }
     if !model.interfaces.is_empty() {
-        show.line(format!("{:<width$} {:<30} {:<30}", "ends of", "@0", "@1").trim_end());
+        show.line(&format!("{:<width$} {:<30} {:<30} A, B", "ends of", "@0", "@1"));
     }
     for (interface, bound) in model.interfaces.iter().zip(&problem.interfaces) {
         let [start, end] =
             Survey::of(model, interface, &bound.laws).ends.map(|[x, y, _]| format!("({x:.4}, {y:.4})"));
-        show.line(&format!("{:<width$} {start:<30} {end}", interface.name));
+        let [a, b] = interface.subdomains.map(|b| model.subdomains[b].name.as_str());
+        show.line(&format!("{:<width$} {start:<30} {end:<30} {a}, {b}", interface.name));
     }
     flow(show, problem, width);
     let constrained = problem

@@ -57,11 +57,13 @@ pub enum Code {
     InitialStress,
     /// Initial stresses that the first loads do not hold.
     NotAtRest,
+    /// Numbers of a softening interface that do not fit each other.
+    OutOfScale,
 }
 
 impl Code {
     /// All of them.
-    pub const ALL: [Code; 25] = [
+    pub const ALL: [Code; 26] = [
         Code::Rounding,
         Code::Oscillation,
         Code::Apart,
@@ -87,6 +89,7 @@ impl Code {
         Code::Stretched,
         Code::InitialStress,
         Code::NotAtRest,
+        Code::OutOfScale,
     ];
 }
 

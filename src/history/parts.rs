@@ -15,11 +15,13 @@ use super::energy::carried;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::{stopped, unusable};
 use super::judge::{Judged, judge};
+use super::limit::stretch;
 use super::loading::Start;
+use super::nowhere::is_nowhere;
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use super::snap::tell_drop;
-use super::viscous::viscous;
+
 use crate::error::Result;
 use crate::solver::Unconverged;
 
@@ -32,9 +34,6 @@ const SMALLEST: f64 = 5e-4;
 const SAFETY: f64 = 0.8;
 const SHRINK: f64 = 0.05;
 const GROW: f64 = 4.0;
-/// Between the last equilibrium and where nothing holds any more lies at most this share of an increment: stretches beyond a limit
-/// take long.
-const LIMIT: f64 = 0.05;
 /// A part found in at most so many iterations may be followed by a larger one.
 const EASY: usize = 8;
 
@@ -45,7 +44,7 @@ pub(super) fn advance(
     at: &mut StepProgress,
 ) -> Result<Outcome<usize>> {
     let (mut iterations, mut failed, mut cut) = (0, 0, false);
-    let mut beyond = None;
+    let mut limit = None;
     let before = analysis.totals.parts;
     while at.load_factor < leg.goal {
         let parts = analysis.totals.parts - before;
@@ -59,6 +58,11 @@ pub(super) fn advance(
         at.most = at.most.max(carried(analysis.problem, &analysis.state.snapshot).sqrt());
         let ahead = Ahead { changes: (to - from) / at.last, near: at.onset };
         let narrower = match analysis.engine.solve(&analysis.state, &load, ahead, leg.complete) {
+            Ok(found) if is_nowhere(&found, [&leg.start.at(from)?, &load], analysis) => {
+                iterations += found.iterations;
+                failed += 1;
+                NARROWER * (to - from)
+            }
             Ok(found) => {
                 iterations += found.iterations;
                 let Judged { error, cracked, solved, passed, work } =
@@ -100,7 +104,7 @@ pub(super) fn advance(
             continue;
         }
         failed = 0;
-        match stretch(analysis, leg, at, to - from, &mut beyond)? {
+        match stretch(analysis, leg, at, to - from, &mut limit)? {
             Outcome::Converged(more) => iterations += more,
             Outcome::Retry(why) => {
                 return Ok(Outcome::Retry(Unconverged { iterations: iterations + why.iterations, ..why }));
@@ -108,49 +112,6 @@ pub(super) fn advance(
         }
     }
     Ok(Outcome::Converged(iterations))
-}
-
-/// Knowledge of where nothing holds.
-struct Beyond {
-    /// The least load factor at which nothing has held, and why.
-    limit: f64,
-    why: Unconverged,
-    /// The next stretch, in load factors.
-    next: f64,
-}
-
-/// A viscous stretch to the increment's end; if nothing holds there, short ones that grow as long as something does: what ends a run
-/// is the limit load, and not where the last stretch began. Beyond the limit a stretch takes long, before it short.
-fn stretch(
-    analysis: &mut Analysis,
-    leg: &LoadIncrement,
-    at: &mut StepProgress,
-    width: f64,
-    beyond: &mut Option<Beyond>,
-) -> Result<Outcome<usize>> {
-    let (from, shortest) = (at.load_factor, LIMIT * leg.part);
-    let mut iterations = 0;
-    loop {
-        let goal = match beyond {
-            None => leg.goal,
-            Some(Beyond { limit, why, .. }) if *limit - from < shortest => {
-                return Ok(Outcome::Retry(Unconverged { iterations, ..why.clone() }));
-            }
-            Some(Beyond { limit, next, .. }) => from + next.min(0.5 * (*limit - from)),
-        };
-        match viscous(analysis, &LoadIncrement { goal, ..*leg }, at, width.min(goal - from))? {
-            Outcome::Converged(more) => {
-                beyond.iter_mut().for_each(|beyond| beyond.next *= 2.0);
-                return Ok(Outcome::Converged(iterations + more));
-            }
-            Outcome::Retry(why) if stopped(&analysis.stop).is_some() => return Ok(Outcome::Retry(why)),
-            Outcome::Retry(why) => {
-                iterations += why.iterations;
-                let limit = if goal - from <= shortest { from } else { goal }; // near enough
-                *beyond = Some(Beyond { limit, why, next: shortest });
-            }
-        }
-    }
 }
 
 /// Share of a part up to the first point that cracks in it.

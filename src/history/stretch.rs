@@ -5,6 +5,7 @@ use super::converged::Converged;
 use super::energy::{carried, change, moved};
 use super::equilibrium::{Ahead, Failure, Viscous};
 use super::loading::StepLoad;
+use super::nowhere::is_nowhere;
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use crate::error::Result;
@@ -137,6 +138,10 @@ pub(super) fn by_laws_alone(
 ) -> Result<bool> {
     let load = leg.start.at(at.load_factor)?;
     match analysis.engine.solve(&analysis.state, &load, Ahead::default(), leg.complete) {
+        Ok(found) if is_nowhere(&found, [&load, &load], analysis) => {
+            stretch.iterations += found.iterations;
+            Ok(false)
+        }
         Ok(found) => {
             stretch.iterations += found.iterations;
             take_viscous(analysis, found, load, stretch);

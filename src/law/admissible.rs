@@ -26,7 +26,7 @@ pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), Inadmiss
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }
-    error_at(key, format!("{key} = {value:e} is negative or not finite"), "it must be zero or more")
+    error_at(key, format!("{key} = {value:e}"), "it must be zero or more")
 }
 
 /// The value must be finite and more than zero.
@@ -34,5 +34,5 @@ pub(super) fn positive(key: &'static str, value: f64) -> Result<(), Inadmissible
     if value.is_finite() && value > 0.0 {
         return Ok(());
     }
-    error_at(key, format!("{key} = {value:e} is not more than zero"), "it must be more than zero")
+    error_at(key, format!("{key} = {value:e}"), "it must be more than zero")
 }

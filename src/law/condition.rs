@@ -34,3 +34,41 @@ impl Law {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::law::Integration;
+
+    const CRACKING: &str = r#"{ "type": "cracking", "normal_stiffness": 1e6, "tangential_stiffness": 1e6, "tensile_strength": 3,
+        "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": 2e-4, "fracture_energy_iia": 2e-3, "dilatancy_stress": 0 }"#;
+    const COHESIVE: &str = r#"{ "type": "cohesive", "normal_stiffness": 1e6, "tangential_stiffness": 1e6, "tensile_strength": 3,
+        "shear_strength": 4, "fracture_energy_i": 2e-4, "fracture_energy_ii": 4e-4, "softening": "linear" }"#;
+    const COULOMB: &str = r#"{ "type": "coulomb", "normal_stiffness": 1e6, "tangential_stiffness": 1e6, "friction_coefficient": 0.5 }"#;
+
+    /// Conditions after each of some jumps (n, t), one after the other.
+    fn along(law: &str, jumps: &[[f64; 2]]) -> Vec<Condition> {
+        let law: Law = serde_json::from_str(law).unwrap();
+        let mut state = law.initial_state(Local::zeros(), 0.0).unwrap();
+        let mut go = |&[n, t]: &[f64; 2]| {
+            state = law.respond(Local::new(n, t, 0.0), &state, Integration::Tolerance(1e-6)).unwrap().state;
+            law.condition(&state)
+        };
+        jumps.iter().map(&mut go).collect()
+    }
+
+    #[test]
+    fn conditions_tell_what_has_become_of_a_point() {
+        use Condition::{Cracked, Intact, Open, Slid, Through, Tied};
+        // below the strength; beyond it; nearly closed again, and pressed; pulled until nothing is left; pressed again
+        let pulled = [[2e-6, 0.0], [3e-5, 0.0], [1e-6, 0.0], [-1e-6, 0.0], [1e-2, 0.0], [-1e-6, 0.0]];
+        assert_eq!(along(CRACKING, &pulled), [Intact, Tied, Tied, Cracked, Open, Through]);
+        assert_eq!(along(COHESIVE, &pulled), [Intact, Tied, Tied, Cracked, Open, Through]);
+        // pressed; slid; slid back to where it was; apart; pressed again
+        let slid = [[-1e-6, 0.0], [-1e-6, 1e-5], [0.0, 1e-5], [1e-5, 1e-5], [-1e-6, 1e-5]];
+        assert_eq!(along(COULOMB, &slid), [Intact, Slid, Slid, Open, Slid]);
+        // sheared under pressure until all cohesion is spent
+        let sheared = [[-5e-6, 0.0], [-5e-6, 1e-5], [-5e-6, 1e-2]];
+        assert_eq!(along(CRACKING, &sheared), [Intact, Cracked, Through]);
+    }
+}

@@ -27,6 +27,7 @@ mod probe_input;
 mod probes;
 mod quantity;
 mod rigid;
+mod scales;
 mod step;
 mod stiffness;
 mod supports;

@@ -74,7 +74,8 @@ pub(super) fn look(
         let [a, b] = [&model.subdomains[a], &model.subdomains[b]];
         let (length, place) = (short(a, *length), near(a, *middle));
         let what = format!("{} and {} touch along {length} near {place} and no interface joins them", a.name, b.name);
-        let help = "they pass through each other: add an interface, or look at the curves and patterns of those there are";
+        let help = "pressed there they would pass through each other: add an interface, or look which curves those name that there are; a free \
+                    notch needs none";
         Warning::new(Code::Unjoined, what, help)
     });
     let warnings = unconnected.chain(unjoined).collect();

@@ -2,6 +2,7 @@
 
 use super::PointLaws;
 use super::curve::PlannedInterface;
+use super::scales::out_of_scale;
 use super::stiffness::{ROUNDING_SEEN, jump_is_unknown, stiffness_number};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
 use crate::error::{Code, Warning};
@@ -53,6 +54,7 @@ pub(super) fn of_interface(
         warnings.push(Warning::new(Code::Apart, what, help));
     }
     warnings.extend(far_away(interface));
+    warnings.extend(out_of_scale(model, interface, laws));
     for curve in plan.sides.iter().flatten() {
         let subdomain = &model.subdomains[curve.subdomain];
         let mut cells: Vec<usize> = curve.edges.iter().map(|edge| edge.cell).collect();

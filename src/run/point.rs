@@ -6,7 +6,7 @@ use super::presets::read_scene;
 use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
 use crate::law::{Integration, Law, Local};
-use crate::scene::Variable;
+use crate::scene::{Variable, text_of};
 
 /// The law, rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Law, Vec<PathRow>, Option<Error>);
@@ -49,7 +49,7 @@ pub fn drive(
         .and_then(|start| law.damaged(start, damage))
         .map_err(|law| scene.source.error_at(&["interfaces", name, law.key], law.what, law.help))?;
     let integration = integration.unwrap_or(Integration::Tolerance(interface.law_tolerance));
-    let text = std::fs::read_to_string(path).map_err(Error::io("read", path))?;
+    let text = text_of(path, "give the file of a path")?;
     let program: path::LawPath = serde_json::from_str(&text).map_err(|error| {
         let message = error.to_string();
         let what = message.split(" at line ").next().unwrap_or(&message);

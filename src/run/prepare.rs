@@ -8,7 +8,7 @@ use super::folder::Folder;
 use super::presets::read_scene;
 use super::shared::{Shared, interfaces_key};
 use super::{Event, Listener, Options};
-use crate::error::Result;
+use crate::error::{Result, name_help};
 use crate::history::Clock;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
 use crate::problem::{Problem, subdomain_meshes};
@@ -153,7 +153,8 @@ fn files(scene: &Scene) -> Result<(Vec<Origin>, Vec<usize>)> {
         let path = base.join(file);
         if !path.is_file() {
             let what = format!("there is no file {}", path.display());
-            let help = format!("files are named relative to {}", base.display());
+            let here = std::path::absolute(&base).unwrap_or_else(|_| base.clone());
+            let help = format!("in {} {}", here.display(), files_like(&base, file));
             return Err(scene.source.error_at(&["subdomains", name, key], what, help));
         }
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -179,6 +180,18 @@ fn files(scene: &Scene) -> Result<(Vec<Origin>, Vec<usize>)> {
         }
     }
     Ok((files, file_of))
+}
+
+/// The files of a folder that have the extension of one that is not there.
+fn files_like(folder: &Path, file: &str) -> String {
+    let kind = Path::new(file).extension();
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .filter(|entry| entry.path().extension() == kind)
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    name_help(file, names.iter().map(String::as_str))
 }
 
 /// `geo/shear/scene.json` is "shear", `geo/shear/stiff.json` is "shear_stiff".

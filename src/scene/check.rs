@@ -49,7 +49,7 @@ impl Scene {
             if !(material.young > 0.0 && material.young.is_finite()) {
                 return error_at(
                     "young",
-                    format!("Young's modulus {} is not a stiffness", material.young),
+                    format!("Young's modulus is {}", material.young),
                     "it must be positive",
                 );
             }

@@ -39,7 +39,7 @@ pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED,
 pub use named::is_pattern;
 pub use op::{FormulaPlace, Variable};
 pub use pressure::{Drain, Flow, FlowEnd, Pressure};
-pub use read::{document, parse, read};
+pub use read::{document, parse, read, text_of};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;

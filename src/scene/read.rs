@@ -18,8 +18,40 @@ pub fn read(
     preset: impl FnOnce(&mut Value, &Source, Accuracy) -> Result<()>,
 ) -> Result<Scene> {
     let file: PathBuf = if path.is_dir() { path.join("scene.json") } else { path.into() };
-    let text = std::fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+    let text = text_of(&file, "give a scene file, or the folder of a scene.json")?;
     parse(file, text, settings, preset)
+}
+
+/// The text of a file that a user names, and `help` where there is none; one that is no text is told as what it is.
+pub fn text_of(file: &Path, help: &str) -> Result<String> {
+    let refused = |what: &str, help: &str| Error::Text {
+        at: Box::new(At { file: file.into(), ..At::default() }),
+        what: what.into(),
+        help: help.into(),
+    };
+    let bytes = match std::fs::read(file) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            let here = std::path::absolute(file).unwrap_or_else(|_| file.into());
+            let what = format!("there is no such file ({})", here.display());
+            return Err(refused(&what, help));
+        }
+        read => read.map_err(Error::io("read", file))?,
+    };
+    let kind = file.extension().and_then(|kind| kind.to_str()).unwrap_or("");
+    if kind == "geo" || kind == "msh" {
+        return Err(refused("it is a file of gmsh", help));
+    }
+    match bytes.as_slice() {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
+            Err(refused("it is saved as UTF-16", "save it as UTF-8 (in an editor: Save as, Encoding)"))
+        }
+        _ => String::from_utf8(bytes).map_err(|_| {
+            refused(
+                "it has bytes that are no UTF-8 text",
+                "save it as UTF-8 (in an editor: Save as, Encoding)",
+            )
+        }),
+    }
 }
 
 /// Reads a scene from its text; `file` is for messages and for the files it names.
@@ -46,11 +78,14 @@ pub fn parse(
         }
         set_all(value, source)
     };
-    let (mut scene, source) = document::<Scene>(file, text, "a scene", set)?;
-    scene.source = source;
-    scene.name_parts()?;
-    scene.check()?;
-    Ok(scene)
+    let checked = || {
+        let (mut scene, source) = document::<Scene>(file, text, "a scene", set)?;
+        scene.source = source;
+        scene.name_parts()?;
+        scene.check()?;
+        Ok(scene)
+    };
+    checked().map_err(|error| set::blamed(error, settings))
 }
 
 /// Reads what a JSON text says, after `change`; `noun` is what it is called, such as "a scene".
@@ -74,8 +109,13 @@ pub fn document<T: DeserializeOwned>(
             Segment::Unknown => None,
             named => Some(named.to_string()),
         };
-        let path: Vec<String> = error.path().iter().filter_map(part).collect();
+        let mut path: Vec<String> = error.path().iter().filter_map(part).collect();
         let message = error.inner().to_string();
+        // a kind that there is none of stands under "type"
+        let kind = [path.clone(), vec!["type".into()]].concat();
+        if message.starts_with("unknown variant") && text_at(&value, &kind).is_some() {
+            path = kind;
+        }
         // a formula speaks for itself, with its position
         if let Some(text) = text_at(&value, &path)
             && let Err(fault) = Expression::parse(text)
@@ -110,8 +150,28 @@ fn syntax(file: &Path, text: &str, noun: &str, error: &serde_json::Error) -> Err
         line: error.line(),
         key: String::new(),
         text: text.into(),
+        stated: false,
         span: offset..offset + text[offset..].chars().next().map_or(0, char::len_utf8),
     };
+    if text.trim().is_empty() {
+        let at = At { text: String::new(), line: 0, ..at };
+        return Error::Text {
+            at: Box::new(at),
+            what: "the file is empty".into(),
+            help: format!("{noun} is one JSON object"),
+        };
+    }
+    if error.to_string().starts_with("expected `,`")
+        && let Some(end) = end_before(text, offset)
+    {
+        let line = 1 + text[..end].matches('\n').count();
+        let at = At { line, span: end..end + text[end..].chars().next().map_or(0, char::len_utf8), ..at };
+        return Error::Text {
+            at: Box::new(at),
+            what: "a comma is missing after this".into(),
+            help: "put one there".into(),
+        };
+    }
     let decimal = decimal_comma(&text[..offset], &text[offset..]);
     if let Some(number) = decimal {
         let (what, help) = (format!("\"{number}\" is no number"), "decimals take a point, as in 1.0");
@@ -120,6 +180,16 @@ fn syntax(file: &Path, text: &str, noun: &str, error: &serde_json::Error) -> Err
     let message = error.to_string();
     let what = message.split(" at line ").next().unwrap_or(&message).to_string();
     Error::Text { at: Box::new(at), what, help: format!("{noun} is one JSON object") }
+}
+
+/// The last character of the value before a place, if what follows there begins another: a quote, digit or bracket.
+fn end_before(text: &str, offset: usize) -> Option<usize> {
+    let begins = text[offset..].starts_with(['"', '{', '[', '-'])
+        || text[offset..].starts_with(|c: char| c.is_ascii_digit());
+    let plain = plain(text); // comments are blanks there
+    let before = plain.get(..offset)?.trim_end();
+    let (end, _) = before.char_indices().next_back().filter(|_| begins)?;
+    text.is_char_boundary(end).then_some(end)
 }
 
 /// A number with a comma for its point, around a place where JSON wants something else.
@@ -153,8 +223,41 @@ fn explain(message: &str, noun: &str) -> (String, String) {
         return (format!("the key \"{name}\" is missing"), "add it".into());
     }
     match message.split_once(", expected ") {
-        Some((what, expected)) => (what.into(), format!("expected {expected}")),
+        Some((what, expected)) => (found(what), format!("it takes {}", wanted(expected))),
         None => (message.into(), format!("`midplane schema` prints what {noun} may hold")),
+    }
+}
+
+/// serde's words for what stands there, as a user calls it.
+fn found(what: &str) -> String {
+    let value = what.split('`').nth(1);
+    let kind = what.strip_prefix("invalid type: ").or(what.strip_prefix("invalid value: "));
+    match (kind, value) {
+        (Some(kind), Some(value)) if kind.starts_with("floating point") || kind.starts_with("integer") => {
+            format!("it is the number {value}")
+        }
+        (Some(kind), Some(value)) if kind.starts_with("boolean") => format!("it is {value}"),
+        (Some(kind), _) if kind.starts_with("string") => {
+            format!("it is the text {}", &kind["string ".len()..])
+        }
+        (Some("map"), _) => "it is an object { }".into(),
+        (Some("sequence"), _) => "it is a list [ ]".into(),
+        (Some("null"), _) => "it is null".into(),
+        _ => what.into(),
+    }
+}
+
+/// serde's words for what would have been right.
+fn wanted(expected: &str) -> &str {
+    match expected {
+        "f64" => "a number",
+        "usize" | "u64" | "u32" => "a whole number",
+        "a map" => "an object { }",
+        "a sequence" => "a list [ ]",
+        "a string" => "a text in quotes",
+        "a boolean" => "true or false",
+        other if other.starts_with("struct ") => "an object { }",
+        other => other,
     }
 }
 
@@ -211,7 +314,7 @@ mod tests {
             (
                 "\"side_a\"",
                 "\"side_c\"",
-                "interfaces.joint.side_c: unknown key \"side_c\"; there is side_a, side_b",
+                "interfaces.joint.side_c: unknown key \"side_c\"; did you mean \"side_a\"? There is side_a, side_b",
             ),
             (
                 "normal_stiffness",
@@ -221,7 +324,7 @@ mod tests {
             (
                 "{ \"n\": 8 }",
                 "{ \"n\": \"eight\" }",
-                "scene.json:5 subdomains.upper.parameters.n: invalid type: string \"eight\"; expected f64",
+                "scene.json:5 subdomains.upper.parameters.n: it is the text \"eight\"; it takes a number",
             ),
             ("\"poisson\": 0.0", "\"poisson\": 0.5", "scene.json:7 materials.rock.poisson: "),
             ("1.0e4", "-1.0e4", "scene.json:7 materials.rock.young: "),
@@ -253,7 +356,7 @@ mod tests {
                 "\"5*cos(pi*w)\"] }",
                 "scene.json:17 steps.0.load.upper.top.traction.1: unknown name \"w\" at character 10 of \"5*cos(pi*w)\"; there is x, y, z, s, load_factor, opening, damage, pi, e, abs",
             ),
-            ("-1.0] }", "\"1+sinn(x)\"] }", "Did you mean \"sin\"?"),
+            ("-1.0] }", "\"1+sinn(x)\"] }", "did you mean \"sin\"?"),
             ("-1.0] }", "\"(1 + 2\"] }", "\"(\" is not closed at character 1 of \"(1 + 2\"; add \")\""),
             (
                 "-1.0] }",
@@ -266,7 +369,7 @@ mod tests {
             ("-1.0] }", "\"cos\"] }", "\"cos\" is a function at character 1 of \"cos\"; write cos( … )"),
             ("-1.0] }", "\"1/0\"] }", "\"1/0\" is inf; a number of a scene is finite"),
             ("-1.0] }", "\"\"] }", "a value is missing at character 1 of \"\""),
-            ("-1.0] }", "true] }", "expected a number or a formula such as"),
+            ("-1.0] }", "true] }", "it is true; it takes a number or a formula such as"),
             (
                 "\"law\":",
                 "\"initial_traction\": [\"load_factor\", 0], \"law\":",

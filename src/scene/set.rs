@@ -78,6 +78,27 @@ pub(super) fn apply(scene: &mut Value, setting: &str, file: &Path) -> Result<()>
     Ok(())
 }
 
+/// An error of what a setting has made or changed tells the setting: the file does not have it.
+pub(super) fn blamed(error: Error, settings: &[String]) -> Error {
+    let Error::Text { at, what, help } = error else { return error };
+    let key_of = |setting: &str| {
+        let key = setting.split_once('=').map_or("", |(key, _)| key);
+        key.strip_prefix('/').map_or_else(|| key.to_string(), |key| key.replace('/', "."))
+    };
+    let own = settings.iter().rev().find(|setting| {
+        let key = key_of(setting);
+        !at.key.is_empty() && (key == at.key || key.starts_with(&format!("{}.", at.key)) && !at.stated)
+    });
+    match own {
+        Some(setting) => {
+            let within = if key_of(setting) == at.key { String::new() } else { format!(" ({})", at.key) };
+            let key = format!("--set {setting}{within}");
+            Error::Text { at: Box::new(At { file: at.file, key, ..At::default() }), what, help }
+        }
+        None => Error::Text { at, what, help },
+    }
+}
+
 /// The refusal of a name that is not there and cannot be made at a path, with what there is: parts, materials and interfaces are stated in the file,
 /// and what a step acts on belongs to one of them.
 fn unknown(known: &HashMap<&str, Vec<String>>, path: &[String], name: &str) -> Option<(String, String)> {

@@ -56,6 +56,7 @@ impl Source {
             key: path.join("."),
             text: self.text.clone(),
             span: span.unwrap_or(0..0),
+            stated: self.places.contains_key(&path),
         }
     }
 

@@ -7,11 +7,11 @@ use sha2::{Digest, Sha256};
 use super::design::{StudyPoint, points, setting};
 use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
-use crate::error::{Error, Result, name_help};
+use crate::error::{Result, name_help};
 use crate::mesh;
 use crate::run::{Shared, read_scene};
 use crate::scene::probe::Probe;
-use crate::scene::{Scene, Source, document};
+use crate::scene::{Scene, Source, document, text_of};
 
 /// A study with its points.
 #[derive(Debug)]
@@ -35,7 +35,7 @@ pub struct StudyPlan {
 impl StudyPlan {
     /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
     pub fn read(file: &Path, only: Option<usize>) -> Result<StudyPlan> {
-        let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
+        let text = text_of(file, "give the file of a study")?;
         let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
         let scene = source.folder().join(&study.scene);
         if !scene.exists() {

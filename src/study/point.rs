@@ -158,6 +158,9 @@ fn run_apart(means: &StudyMeans, point: usize, repeat: usize) -> Result<PointOut
     let start = Instant::now();
     let output = command.output().map_err(Error::io("start", "a process of a point"))?;
     let seconds = start.elapsed().as_secs_f64();
+    if let Some(signal) = means.options.stop.requested() {
+        return Err(Error::Stopped { signal, kept: 0, folder: PathBuf::new() });
+    }
     let read = read(&once);
     // it may not be there, and is of no use any more if it is
     let _ = std::fs::remove_file(&once);

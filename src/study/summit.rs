@@ -28,10 +28,12 @@ impl Summit {
     pub(super) fn place(&self) -> f64 {
         let Some((x, y)) = self.top else { return f64::NAN };
         let (Some((x0, y0)), Some((x1, y1))) = (self.before, self.after) else { return x };
+        if (x - x0) * (x1 - x) <= 0.0 {
+            return x; // the curve turns back there
+        }
         let [rise, fall] = [(y - y0) / (x - x0), (y1 - y) / (x1 - x)];
         let curvature = (fall - rise) / (x1 - x0);
         let vertex = 0.5 * (x0 + x) - 0.5 * rise / curvature;
-        // a curve that turns back in x has no parabola
         let [low, high] = [0.5 * (x0 + x), 0.5 * (x + x1)];
         if (low..=high).contains(&vertex) || (high..=low).contains(&vertex) { vertex } else { x }
     }

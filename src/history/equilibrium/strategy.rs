@@ -8,22 +8,30 @@ use crate::error::Result;
 use crate::history::memory;
 use crate::problem::Problem;
 use crate::scene::Strategy;
-use crate::solver::{Continuum, Method};
+use crate::solver::{Continuum, Method, Symbolic, TooLarge};
 
 /// Iterations of an increment, for the estimate.
 const ITERATIONS: f64 = 4.0;
 
-/// Sparse factors by blocks take so many times as long as dense ones of as much work.
-const SPARSE: f64 = 3.0;
+/// Work beside that of a dense factor, in its operations: measured over a dozen scenes of 80 to 35 000 dofs (benches/strategies.py).
+/// Setting up the condensed form gains from large products; of its system an iteration factors what is not intact, a third of the
+/// points where much slides.
+const SETUP: f64 = 1.0 / 3.0;
+const BY_UNKNOWN_SQUARED: f64 = 120.0;
+const FACTORED: f64 = 0.2;
+/// An operation of sparse factors by blocks and of sparse factors on all displacements, and what a dof and an iteration take beside
+/// them.
+const BLOCKS: [f64; 3] = [4.5, 3e3, 6e6];
+const PLAIN: [f64; 3] = [17.0, 2.5e4, 2e6];
 
-/// Multiplications and additions that a run takes, estimated before it.
+/// Work that a run takes, estimated before it [multiplications and additions of a dense factor that take as long].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Operations {
     /// On the jumps of the interfaces.
     pub condensed: f64,
     /// On these and the motions of the bodies, by blocks.
     pub blocks: f64,
-    /// On all displacements, the interfaces' own share left out.
+    /// On all displacements.
     pub plain: f64,
 }
 
@@ -66,15 +74,22 @@ pub(in crate::history) fn choose(
         let separator = continuum.separator_of(b).len() as f64;
         2.3 * separator.powi(3) // its factor, and flexibilities of as many unknowns
     };
-    let estimate = Operations {
-        condensed: continuum.operations()
-            + sets * (base + 2.0 * coefficients.powi(3))
-            + iterations * 2.0 / 3.0 * coefficients.powi(3),
+    let iteration =
+        |[operation, dof, own]: [f64; 3], factor: f64| operation * factor + dof * dofs as f64 + own;
+    let mut estimate = Operations {
+        condensed: SETUP * (continuum.operations() + sets * (base + 2.0 * coefficients.powi(3)))
+            + iterations * (BY_UNKNOWN_SQUARED * coefficients.powi(2) + FACTORED * coefficients.powi(3)),
         blocks: continuum.operations()
             + sets * (0..continuum.subdomains()).map(subdomains).sum::<f64>()
-            + iterations * SPARSE * by_blocks(problem),
-        plain: iterations * 2.0 * continuum.operations(),
+            + iterations * iteration(BLOCKS, by_blocks(problem)),
+        plain: iterations * iteration(PLAIN, continuum.operations()),
     };
+    if estimate.plain < estimate.blocks.min(estimate.condensed) {
+        // the bodies alone are the least: interfaces couple whole sides
+        let joined =
+            Symbolic::minimum_degree(&model.pattern()).map_err(|TooLarge| memory::too_large(dofs))?;
+        estimate.plain = iterations * iteration(PLAIN, joined.operations());
+    }
     let dense = continuum.separator().pow(2) + 5 * (coefficients as usize).pow(2);
     let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
     let fits = available.is_none_or(|available| needed <= available);

@@ -60,12 +60,15 @@ impl Cohesive {
                 } else {
                     format!("a mixity of {share}")
                 };
-                let what = format!("{key} = {stiffness:e}: the traction snaps back at a point in {mode}");
+                let what = format!(
+                    "{key} = {stiffness:e}, strength and fracture energy do not fit each other: a point would lose its strength at \
+                     once in {mode}"
+                );
                 let least = stiffness * steepest / kappa;
                 return error_at(
                     key,
                     what,
-                    format!("give more than {least:.3e}, or raise the fracture energy"),
+                    format!("{key} must be above {least:.3e}; are all of them in the same units?"),
                 );
             }
         }

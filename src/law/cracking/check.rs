@@ -125,8 +125,14 @@ impl Cracking {
         if chi * t > c * (1.0 + ROUNDING) {
             return error_at(
                 "cohesion",
-                format!("cohesion = {c} < tensile_strength * tan_friction = {chi} * {t} = {}", chi * t),
-                "raise the cohesion or lower the tensile strength: the vertex of the hyperbola lies outside",
+                format!(
+                    "cohesion = {c}, tensile_strength = {chi} and tan_friction = {t} do not fit each other"
+                ),
+                format!(
+                    "the cohesion must be at least tensile_strength * tan_friction = {:.4}, or the curve of strength has its \
+                     vertex outside itself; tan_friction is the tangent of the angle, 0.7002 at 35 degrees",
+                    chi * t
+                ),
             );
         }
         let surface = Surface::new(self);
@@ -170,11 +176,14 @@ impl Cracking {
         error_at(
             "normal_stiffness",
             format!(
-                "normal_stiffness = {:e} <= tensile_strength^2 e^|alpha| / fracture_energy_i = {least:e}: pure \
-                 tension snaps back at a point",
-                self.normal_stiffness
+                "normal_stiffness = {:e}, tensile_strength = {chi} and fracture_energy_i = {:e} do not fit each other: a point \
+                 that is pulled would lose its strength at once",
+                self.normal_stiffness, self.fracture_energy_i
             ),
-            format!("give more than {least:e}, or raise fracture_energy_i"),
+            format!(
+                "normal_stiffness must be above tensile_strength^2 e^|alpha| / fracture_energy_i = {least:.3e}; are all three in \
+                 the same units?"
+            ),
         )
     }
 }

@@ -90,7 +90,10 @@ pub(super) fn content(bytes: &[u8]) -> Result<Content, MeshFault> {
 fn header(bytes: &[u8]) -> Result<(Cursor<'_>, Encoding), MeshFault> {
     let help = "write MSH 4.1 (gmsh -format msh41)";
     let error_at = |what: &str| MeshFault { what: what.into(), help: help.into() };
-    let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| error_at("is not an MSH file"))?;
+    let rest = bytes.strip_prefix(b"$MeshFormat").ok_or_else(|| MeshFault {
+        what: "is not an MSH file".into(),
+        help: "make it with gmsh -2 -format msh41 part.geo".into(),
+    })?;
     let mut lines = rest.splitn(3, |&b| b == b'\n').skip(1);
     let line = lines.next().and_then(|line| std::str::from_utf8(line).ok()).unwrap_or("");
     let subdomain = lines.next().ok_or_else(|| damaged("ends in its first lines"))?;
