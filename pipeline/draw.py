@@ -10,6 +10,7 @@ library for that (libosmesa6 or libegl1) only the graphs are drawn, and a line s
 """
 
 import argparse
+import json
 import sys
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from matplotlib.ticker import MaxNLocator
 import page
 import scene_file
 from exact import SOLUTIONS
-from joints import entry_of, subdomains_of
+from joints import entry_of
 from page import BLUE, FACE, GREEN, GREY, INK, PALE, VERMILLION, Page, sign
 from traction import deviation, draw_traction
 
@@ -54,6 +55,11 @@ class Results:
             return mesh.extract_cells(((low <= centres) & (centres <= high)).all(axis=1))
 
         return [part for part in map(cut, there) if part.n_cells]
+
+    def sides(self, name):
+        """The subdomains of side A and of side B, each as a list."""
+        summary = json.loads((self.folder / "summary.json").read_text())
+        return [[subdomain] for subdomain in summary["sizes"]["interfaces"][name]["subdomains"]]
 
     def midplane(self, name):
         """Mid-plane of an interface: its points, the ends of its segments and of its grid cells, parents."""
@@ -322,7 +328,7 @@ def main():
     draw_displacement(results, title, units, arguments.window)
     draw_principal_stress(results, title, units, arguments.window)
     for name in results.interfaces:
-        draw_coupling(results, name, subdomains_of(scene, name), title, units)
+        draw_coupling(results, name, results.sides(name), title, units)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,6 @@
 
 import numpy as np
 
-from joints import subdomains_of
-
 STRAIGHT = 1e-9
 BALANCE = 1e-10  # of the largest force; where the solution is iterated, no better than its own residual
 
@@ -41,11 +39,12 @@ def check_balance(results, scene, summary, interfaces, residual, faults):
     largest = np.abs([part[:2] for parts in forces.values() for part in parts])
     size = max(largest.max(initial=np.finfo(float).tiny), *joints, 0.0)
     arm = max((np.abs(grid.points[:, :2]).max() for grid in interfaces.values()), default=1.0)
+    sides = summary["sizes"]["interfaces"]
     curved = {
         subdomain
         for name, grid in interfaces.items()
         if not is_straight(grid)
-        for subdomain in sum(subdomains_of(scene, name), [])
+        for subdomain in sides[name]["subdomains"]
     }
 
     def error(parts, moments=True):
@@ -54,13 +53,13 @@ def check_balance(results, scene, summary, interfaces, residual, faults):
 
     whole = error(acting(equilibrium))
     faults.expect(whole <= allowed, f"{results}: loads and reactions leave {whole:.1e} of the largest force")
-    for name in summary["sizes"]["interfaces"]:
-        a, b = subdomains_of(scene, name)
-        if name not in interfaces or len(a) != 1 or len(b) != 1:
-            return whole, None  # not stored, or of several subdomains at one side
+    for name, size_of in sides.items():
+        if name not in interfaces:
+            return whole, None  # not stored
+        a, b = size_of["subdomains"]
         force = resultant(interfaces[name], scene.get("thickness", 1.0))
-        forces[a[0]].append(force)
-        forces[b[0]].append(-force)
+        forces[a].append(force)
+        forces[b].append(-force)
     errors = {subdomain: error(parts, subdomain not in curved) for subdomain, parts in forces.items()}
     for subdomain, rest in errors.items():
         faults.expect(

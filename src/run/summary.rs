@@ -38,7 +38,7 @@ struct Sizes<'a> {
     nodes: usize,
     dofs: usize,
     subdomains: IndexMap<&'a str, SubdomainSize>,
-    interfaces: IndexMap<&'a str, InterfaceSize>,
+    interfaces: IndexMap<&'a str, InterfaceSize<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -48,7 +48,9 @@ struct SubdomainSize {
 }
 
 #[derive(Debug, Serialize)]
-struct InterfaceSize {
+struct InterfaceSize<'a> {
+    /// Subdomains of sides A and B.
+    subdomains: [&'a str; 2],
     edges_a: usize,
     edges_b: usize,
     segments: usize,
@@ -111,11 +113,21 @@ struct Resultants {
     moment: [f64; 2],
 }
 
-impl InterfaceSize {
-    fn new(survey: Survey) -> InterfaceSize {
+impl<'a> InterfaceSize<'a> {
+    fn new(subdomains: [&'a str; 2], survey: Survey) -> InterfaceSize<'a> {
         let Survey { facets: [edges_a, edges_b], segments, grid_nodes, law_points, length, .. } = survey;
         let Survey { gap, stiffness_number, .. } = survey;
-        InterfaceSize { edges_a, edges_b, segments, grid_nodes, law_points, length, gap, stiffness_number }
+        InterfaceSize {
+            subdomains,
+            edges_a,
+            edges_b,
+            segments,
+            grid_nodes,
+            law_points,
+            length,
+            gap,
+            stiffness_number,
+        }
     }
 }
 
@@ -163,7 +175,8 @@ pub(super) fn summary<'a>(
         (subdomain.name.as_str(), SubdomainSize { nodes: subdomain.mesh.points.len(), cells })
     });
     let interfaces = model.interfaces.iter().zip(&problem.interfaces).map(|(interface, bound)| {
-        (interface.name.as_str(), InterfaceSize::new(Survey::of(model, interface, &bound.laws)))
+        let sides = interface.subdomains.map(|b| model.subdomains[b].name.as_str());
+        (interface.name.as_str(), InterfaceSize::new(sides, Survey::of(model, interface, &bound.laws)))
     });
     let told = totals.warnings(problem.solution.path_tolerance);
     let mut time: IndexMap<&'static str, f64> = clock.stages().iter().copied().collect();
