@@ -68,6 +68,11 @@ def draw_level(axis, value, text):
     axis.set_ylim(top=max(axis.get_ylim()[1], 1.1 * value))
 
 
+def ends(values):
+    """From zero to the largest, or from the smallest where that is below."""
+    return min(0.0, *(value.min() for value in values)), max(value.max() for value in values)
+
+
 def draw(runs, solution, columns, levels, title, subtitle):
     """The picture: `columns` are (name, label) of the abscissa and of the ordinate, `levels` (value, text)."""
     (x, x_label), (y, y_label) = columns
@@ -78,7 +83,7 @@ def draw(runs, solution, columns, levels, title, subtitle):
         look = {"color": RUNS[order], "marker": "o", "markersize": 3.0, "zorder": 5 - order}
         line = "none" if solution and solution.name == "exact" else "-"
         axis.plot(run[x], run[y], linewidth=1.2, linestyle=line, label=label, clip_on=False, **look)
-    axis.set(xlabel=x_label, ylabel=y_label, xlim=(0, max(run[x].max() for _, run in runs)))
+    axis.set(xlabel=x_label, ylabel=y_label, xlim=ends([run[x] for _, run in runs]))
     axis.set_ylim(bottom=min(0, *(run[y].min() for _, run in runs)))
     for level in levels:
         draw_level(axis, *level)
