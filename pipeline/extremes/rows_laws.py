@@ -32,7 +32,7 @@ def cohesive_parameters(t):
         t.refused(f"{key} = 0", t.program.law(cohesive(**{key: 0.0}), way(((1e-6, 0.0), 2))), key)
     # K_N > f²/(2 G) of the linear softening: G = 4.5e-7
     t.refused(
-        "G_I just too small", t.program.law(cohesive(fracture_energy_i=4.4e-7), way(((1e-6, 0.0), 2))), "snaps back", "normal_stiffness"
+        "G_I just too small", t.program.law(cohesive(fracture_energy_i=4.4e-7), way(((1e-6, 0.0), 2))), "do not fit each other", "normal_stiffness"
     )
     rows = t.program.law(cohesive(fracture_energy_i=4.6e-7), way(((3e-7, 0.0), 3), ((4e-7, 0.0), 400))).need().rows()
     t.below("G_I just large enough: |peak/f_t − 1|", abs(rows["traction_n"].max() / FT - 1), 1e-9)

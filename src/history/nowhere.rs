@@ -3,9 +3,10 @@
 use super::analysis::Analysis;
 use super::converged::Converged;
 use super::loading::StepLoad;
-use crate::law::Local;
+use crate::law::{Local, State};
 
-/// True if what has converged is none: a point has moved by more than its interface is long, though nothing that is prescribed has.
+/// True if what has converged is none: a point has slid or opened by more than its interface is long, though nothing that is prescribed
+/// has moved so far. Springs may be as soft as they like.
 pub(super) fn is_nowhere(
     found: &Converged,
     [now, then]: [&StepLoad; 2],
@@ -14,8 +15,14 @@ pub(super) fn is_nowhere(
     let (before, step) = (&state.snapshot, then.at().0);
     let beyond = |prescribed: f64| {
         found.interfaces.iter().any(|of| {
-            let length = problem.model.interfaces[of.interface].coupling.midplane.length;
-            farthest(&before.jumps[of.interface], &of.jumps) > length + prescribed
+            let k = of.interface;
+            let length = problem.model.interfaces[k].coupling.midplane.length;
+            let loose = |p: usize, state: &State| {
+                state.jump - problem.interfaces[k].laws.at(p).jump_under(&state.traction)
+            };
+            let ways = before.states[k].iter().zip(&of.memory).enumerate();
+            ways.map(|(p, (old, new))| (loose(p, &new.state) - loose(p, old)).norm())
+                .any(|way| way > length + prescribed)
         })
     };
     // forces are made where they are needed
