@@ -44,7 +44,9 @@ pub(super) fn no_equilibrium(
             format!("{} at ({:.6}, {:.6})", interface.name, point.position[0], point.position[1])
         })
         .collect();
-    let reason =
-        format!("{} beyond load factor {load_factor:.6}; worst law points: {}", why.reason, worst.join(", "));
+    let mut reason = format!("{} beyond load factor {load_factor:.6}", why.reason);
+    if !worst.is_empty() {
+        reason.push_str(&format!("; worst law points: {}", worst.join(", ")));
+    }
     Error::NoEquilibrium { step: step.name.clone(), increment, reason, kept }
 }

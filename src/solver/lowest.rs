@@ -18,6 +18,8 @@ const VECTORS: usize = 6;
 const MOST: usize = 60;
 /// Change of the lowest value at which it counts as found.
 const FOUND: f64 = 1e-6;
+/// Shifts that are tried, ten times as large each: rounding may leave the first without a factor.
+const SHIFTS: i32 = 6;
 
 /// The lowest eigenvalue and its vector, if it is at most `limit`. `entries` of both triangles are summed; values below `floor` count
 /// as zero.
@@ -27,17 +29,25 @@ pub fn lowest_below(
     limit: f64,
     floor: f64,
 ) -> Option<(f64, Vec<f64>)> {
-    if size <= DENSE {
-        let mut dense = DMatrix::<f64>::zeros(size, size);
-        entries.iter().for_each(|&(i, j, value)| dense[(i, j)] += value);
-        let eigen = SymmetricEigen::new(dense);
-        let (least, value) = eigen.eigenvalues.argmin();
-        return (value <= limit).then(|| (value, eigen.eigenvectors.column(least).as_slice().to_vec()));
+    if size > DENSE && factor(size, entries, -limit).is_some() {
+        return None;
     }
-    match factor(size, entries, -limit) {
-        Some(_) => None,
-        None => Some(iterate(size, entries, floor)),
-    }
+    let shifts = if size > DENSE { SHIFTS } else { 0 };
+    let shifted = (0..shifts).find_map(|k| factor(size, entries, floor * 10f64.powi(k)));
+    let (value, vector) = match shifted {
+        Some(factored) => iterate(size, entries, floor, &factored),
+        None => least_of_all(size, entries),
+    };
+    (value <= limit).then_some((value, vector))
+}
+
+/// By all eigenvalues.
+fn least_of_all(size: usize, entries: &[(usize, usize, f64)]) -> (f64, Vec<f64>) {
+    let mut dense = DMatrix::<f64>::zeros(size, size);
+    entries.iter().for_each(|&(i, j, value)| dense[(i, j)] += value);
+    let eigen = SymmetricEigen::new(dense);
+    let (least, value) = eigen.eigenvalues.argmin();
+    (value, eigen.eigenvectors.column(least).as_slice().to_vec())
 }
 
 /// L of A + shift I; none if that is not positive definite.
@@ -48,14 +58,12 @@ fn factor(size: usize, entries: &[(usize, usize, f64)], shift: f64) -> Option<Ll
     SparseColMat::try_new_from_triplets(size, size, &lower).ok()?.sp_cholesky(Side::Lower).ok()
 }
 
-fn iterate(size: usize, entries: &[(usize, usize, f64)], floor: f64) -> (f64, Vec<f64>) {
-    let mut shift = floor;
-    let factored = loop {
-        match factor(size, entries, shift) {
-            Some(factored) => break factored,
-            None => shift *= 10.0, // rounding
-        }
-    };
+fn iterate(
+    size: usize,
+    entries: &[(usize, usize, f64)],
+    floor: f64,
+    factored: &Llt<usize, f64>,
+) -> (f64, Vec<f64>) {
     // no direction is special to these
     let mut vectors = DMatrix::from_fn(size, VECTORS, |i, k| (1.0 + (i * (2 * k + 3)) as f64).sin());
     let mut before = f64::INFINITY;
