@@ -6,6 +6,7 @@
 mod accuracy;
 mod check;
 mod column;
+mod explain;
 pub mod expression;
 mod functions;
 mod grammar;
@@ -29,6 +30,7 @@ mod solution;
 mod source;
 mod stages;
 mod stated_law;
+mod text;
 mod value;
 
 pub use accuracy::{Accuracy, Preset};
@@ -39,12 +41,13 @@ pub use interface::{CouplingKind, DrawnGap, Grid, InitialGap, Interface, JOINED,
 pub use named::is_pattern;
 pub use op::{FormulaPlace, Variable};
 pub use pressure::{Drain, Flow, FlowEnd, Pressure};
-pub use read::{document, parse, read, text_of};
+pub use read::{document, parse, read};
 pub use schema::scene_schema;
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
 pub use stages::{LeftShare, StepStage};
 pub use stated_law::StatedLaw;
+pub use text::text_of;
 pub use value::Value;
 
 use indexmap::IndexMap;
