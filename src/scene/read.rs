@@ -111,6 +111,7 @@ fn text_at<'a>(value: &'a Value, path: &[String]) -> Option<&'a str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
 
     fn parsed(file: PathBuf, text: String, settings: &[String]) -> Result<Scene> {
         parse(file, text, settings, |_, _, _| Ok(()))
