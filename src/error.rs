@@ -86,6 +86,26 @@ pub enum Error {
         /// Folder of their results; empty before there is one.
         folder: PathBuf,
     },
+    /// A results folder that cannot be used.
+    #[error("{}: {what}; {help}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// What is the matter with it.
+        what: String,
+        /// The remedy.
+        help: String,
+    },
+    /// A checkpoint from which this run cannot go on.
+    #[error("{}: {what}; {help}", file.display())]
+    Checkpoint {
+        /// The checkpoint, or the folder without one.
+        file: PathBuf,
+        /// The difference.
+        what: String,
+        /// The remedy.
+        help: String,
+    },
     /// A program that midplane needs is missing, was killed or ran out of time.
     #[error("{program}: {what}; {help}")]
     Program {
@@ -146,10 +166,11 @@ impl Error {
             | Error::Mesh { .. }
             | Error::Gmsh { .. }
             | Error::Interface { .. }
-            | Error::FreeBody { .. } => 2,
+            | Error::FreeBody { .. }
+            | Error::Checkpoint { .. } => 2,
             Error::NoEquilibrium { .. } => 3,
             Error::Stopped { signal, .. } => 128 + signal,
-            Error::Program { .. } => 4,
+            Error::Program { .. } | Error::Folder { .. } => 4,
             // a file the user named and that is not there is bad input; a full disk is the environment
             Error::Io { action, source, .. } if *action == "read" => match source.kind() {
                 std::io::ErrorKind::NotFound
@@ -165,6 +186,11 @@ impl Error {
     /// Shorthand for a mesh error.
     pub fn mesh(file: impl Into<PathBuf>, what: impl Into<String>, help: impl Into<String>) -> Error {
         Error::Mesh { file: file.into(), what: what.into(), help: help.into() }
+    }
+
+    /// Shorthand for an error of a results folder.
+    pub fn folder(folder: impl Into<PathBuf>, what: impl Into<String>, help: impl Into<String>) -> Error {
+        Error::Folder { folder: folder.into(), what: what.into(), help: help.into() }
     }
 
     /// Shorthand for a file system error.
@@ -218,8 +244,8 @@ fn kept_text(kept: usize, folder: &Path) -> String {
     match (kept, folder.as_os_str().is_empty()) {
         (_, true) => "nothing was written".into(),
         (0, false) => format!("kept the unloaded state in {}", folder.display()),
-        (1, false) => format!("kept 1 increment in {}", folder.display()),
-        (_, false) => format!("kept {kept} increments in {}", folder.display()),
+        (1, false) => format!("kept 1 increment in {}, --resume goes on from there", folder.display()),
+        (_, false) => format!("kept {kept} increments in {}, --resume goes on from there", folder.display()),
     }
 }
 

@@ -27,6 +27,7 @@ pub mod cli;
 pub mod continuum;
 pub mod coupling;
 pub mod error;
+pub mod files;
 pub mod history;
 pub mod law;
 pub mod mesh;

@@ -38,12 +38,10 @@ fn increments(file: &Path, strategy: &str, folder: &Path) -> (Vec<ModelState>, f
         settings.extend(["left", "right"].map(|half| format!("subdomains.{half}.parameters.edges=24")));
     }
     let options = Options {
-        stop: Default::default(),
-        scene: file.to_path_buf(),
         out: Some(folder.to_path_buf()),
         settings,
-        gmsh: "gmsh".into(),
         gmsh_limit: Duration::from_secs(60),
+        ..Options::of(file)
     };
     let problem = prepare(&options, &mut |_| ()).unwrap().problem;
     let mut states = Vec::new();

@@ -25,12 +25,10 @@ const GAP: f64 = 1e-12;
 fn run(name: &str) -> (Problem, Vec<ModelState>, f64) {
     let folder = tempfile::tempdir().unwrap();
     let options = Options {
-        stop: Default::default(),
-        scene: Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cycles").join(name),
         out: Some(folder.path().join("out")),
         settings: vec!["output.fields=every".into()],
-        gmsh: "gmsh".into(),
         gmsh_limit: Duration::from_secs(60),
+        ..Options::of(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cycles").join(name))
     };
     let problem = prepare(&options, &mut |_| ()).unwrap().problem;
     let mut states = Vec::new();

@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::Stop;
-use crate::run::Options;
+use crate::run::{Every, Options};
 
 /// Finite elements of solids whose parts are meshed separately and joined along interfaces.
 #[derive(Debug, Parser)]
@@ -37,6 +37,7 @@ Examples:
   midplane run geo/compression
   midplane run geo/compression/scene.json -o out
   midplane run geo/compression --set subdomains.lower.parameters.n=12 --set interfaces.joint.coupling=pointwise
+  midplane run geo/shear_box --resume     go on from the last checkpoint, after a kill, Ctrl-C, a full disk, or with more steps
 
 A key of --set is a path with dots or a JSON pointer; its value is JSON, or else a string.")]
     Run {
@@ -45,6 +46,12 @@ A key of --set is a path with dots or a JSON pointer; its value is JSON, or else
         /// Threads to use; all cores if absent
         #[arg(long, value_name = "N")]
         threads: Option<NonZeroUsize>,
+        /// Go on from the last checkpoint of the folder; begin if there is none
+        #[arg(long)]
+        resume: bool,
+        /// Keep a checkpoint after so many seconds ("60s") or increments ("10"), and at the ends of steps; or "never"
+        #[arg(long, value_name = "EVERY", default_value = "60s", value_parser = every)]
+        checkpoint: Every,
     },
     /// Mesh the subdomains of a scene, those whose input changed
     #[command(after_help = "\
@@ -179,6 +186,16 @@ fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
+fn every(text: &str) -> Result<Every, String> {
+    let seconds = text.strip_suffix('s').and_then(|number| number.trim().parse::<f64>().ok());
+    match (text, seconds, text.parse::<usize>()) {
+        ("never", _, _) => Ok(Every::Never),
+        (_, Some(seconds), _) if seconds >= 0.0 && seconds.is_finite() => Ok(Every::Seconds(seconds)),
+        (_, _, Ok(increments)) if increments > 0 => Ok(Every::Increments(increments)),
+        _ => Err("seconds such as 60s, a number of increments such as 10, or never".into()),
+    }
+}
+
 /// Arguments of all commands on a scene.
 #[derive(Debug, Args)]
 pub(super) struct Common {
@@ -214,6 +231,7 @@ impl Common {
             gmsh: self.gmsh.clone(),
             gmsh_limit: Duration::from_secs(self.gmsh_limit),
             stop: stop.clone(),
+            ..Options::of(&self.scene)
         }
     }
 }

@@ -5,8 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 
+use super::printer::Printer;
 use crate::error::Result;
 use crate::study::{self, PointOutcome, Progress, StudyDone, StudyMeans, StudyPlan};
 
@@ -16,11 +17,11 @@ pub(super) fn study(
     means: &StudyMeans,
     point: Option<usize>,
     once: Option<&Path>,
-    quiet: bool,
+    (quiet, printer): (bool, &Printer),
 ) -> Result<()> {
     let line = |text: &str| {
         if !quiet {
-            println!("{text}");
+            printer.out(text);
         }
     };
     match (point, once) {
@@ -34,34 +35,40 @@ pub(super) fn study(
             Ok(())
         }
         (None, _) => {
-            let bar =
-                (!quiet && std::io::stderr().is_terminal()).then(|| ProgressBar::new(plan.len() as u64));
-            if let Some(bar) = &bar {
+            let bar = !quiet && std::io::stderr().is_terminal();
+            if bar {
+                let total = plan.len() as u64;
                 let style = ProgressStyle::with_template("{bar:30} {pos}/{len} points, {eta} left {msg}");
-                style.into_iter().for_each(|style| bar.set_style(style));
-                bar.enable_steady_tick(Duration::from_millis(200));
+                printer.bar(move |bar| {
+                    bar.set_length(total);
+                    style.into_iter().for_each(|style| bar.set_style(style));
+                    bar.enable_steady_tick(Duration::from_millis(200));
+                });
             }
-            let mut show = |progress: Progress| match (&bar, progress.outcome) {
-                (Some(bar), outcome) => {
-                    bar.set_position(progress.done as u64);
-                    if outcome.is_none() {
-                        bar.reset_eta();
-                    }
+            let mut show = |progress: Progress| match (bar, progress.outcome) {
+                (true, outcome) => {
+                    let (done, begins) = (progress.done as u64, outcome.is_none());
+                    printer.bar(move |bar| {
+                        bar.set_position(done);
+                        if begins {
+                            bar.reset_eta();
+                        }
+                    });
                     if let Some(outcome) = outcome.filter(|outcome| !outcome.done()) {
-                        bar.suspend(|| println!("{}", described(plan, outcome)));
+                        line(&described(plan, outcome));
                     }
                 }
-                (None, None) if progress.done > 0 => {
+                (false, None) if progress.done > 0 => {
                     line(&format!("{} of {} points are there", progress.done, progress.total));
                 }
-                (None, Some(outcome)) => {
+                (false, Some(outcome)) => {
                     line(&format!("{:>5}/{}  {}", progress.done, progress.total, described(plan, outcome)));
                 }
-                (None, None) => {}
+                (false, None) => {}
             };
             let done = study::run(plan, means, &mut show)?;
-            if let Some(bar) = &bar {
-                bar.finish_and_clear();
+            if bar {
+                printer.bar(|bar| bar.finish_and_clear());
             }
             ended(means, &done).iter().for_each(|text| line(text));
             Ok(())

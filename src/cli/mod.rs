@@ -3,6 +3,7 @@
 mod arguments;
 mod check;
 mod follow;
+mod printer;
 mod report;
 mod show;
 mod signals;
@@ -15,6 +16,7 @@ use std::time::Duration;
 use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command, Of};
+use printer::Printer;
 
 use crate::error::{Error, Result, Stop};
 use crate::law::Integration;
@@ -24,45 +26,58 @@ use crate::run;
 use crate::scene;
 use crate::study;
 
+/// Without a line that is read for so long the program ends: what is on disk is complete.
+const PATIENCE: Duration = Duration::from_secs(10);
+
 /// The program: reads the arguments, does what they say, prints the one error there may be.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match act(arguments) {
+    // a table of `check` is all there is of it, so that whoever reads it page by page has time
+    let patience = if matches!(arguments.command, Command::Check { .. }) { None } else { Some(PATIENCE) };
+    let (printer, printing) = Printer::start();
+    let code = match act(arguments, &printer) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{}", report::error(&error));
+            printer.error(&report::error(&error));
             ExitCode::from(error.exit_code())
         }
-    }
+    };
+    drop(printer);
+    printing.finish(patience);
+    code
 }
 
-fn act(arguments: Arguments) -> Result<()> {
+fn act(arguments: Arguments, printer: &Printer) -> Result<()> {
     let stop = Stop::default();
     if arguments.command.is_long() {
         signals::watch(&stop);
     }
     match arguments.command {
-        Command::Run { common, threads } => {
+        Command::Run { common, threads, resume, checkpoint } => {
             set_threads(threads)?;
-            let mut show = show::Show::new(common.quiet);
-            let done = run::run(&common.options(&stop), &mut |event| show.event(event))?;
+            let mut show = show::Show::new(common.quiet, printer);
+            let options = run::Options { resume, checkpoints: checkpoint, ..common.options(&stop) };
+            let done = run::run(&options, &mut |event| show.event(event))?;
             show.done(&done);
             Ok(())
         }
         Command::Mesh { common } => {
-            let mut show = show::Show::new(common.quiet);
+            let mut show = show::Show::new(common.quiet, printer);
             run::mesh(&common.options(&stop), &mut |event| show.event(event))?;
             show.finish();
             Ok(())
         }
         Command::Check { common, plot } => {
-            let mut show = show::Show::new(common.quiet);
+            let mut show = show::Show::new(common.quiet, printer);
             let mut prepared = run::prepare(&common.options(&stop), &mut |event| show.event(event))?;
             prepared.folder.keep();
             check::print(&show, &prepared);
             if plot {
-                let folder =
-                    output::write_geometry(&prepared.folder.path().join("check"), &prepared.problem.model)?;
+                let folder = output::write_geometry(
+                    &prepared.folder.path().join("check"),
+                    &prepared.name,
+                    &prepared.problem.model,
+                )?;
                 show.line(&format!("wrote {}", folder.display()));
             }
             Ok(())
@@ -89,7 +104,7 @@ fn act(arguments: Arguments) -> Result<()> {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
             let means = study::StudyMeans { out, file, options, jobs: jobs.get(), threads };
-            follow::study(&plan, &means, point, once.as_deref(), quiet)
+            follow::study(&plan, &means, point, once.as_deref(), (quiet, printer))
         }
         Command::Schema { of } => {
             let schema = match of {

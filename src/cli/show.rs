@@ -3,22 +3,25 @@
 use std::io::IsTerminal;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::{ProgressState, ProgressStyle};
 
+use super::printer::Printer;
 use super::ticker::Ticker;
 use crate::assembly::InterfaceOperator;
 use crate::error::Warning;
 use crate::history::{Operations, PartNow, StageNow, Totals, memory::gigabytes};
 use crate::output::HistoryRow;
 use crate::problem::Problem;
-use crate::run::{Event, RunDone};
+use crate::run::{Event, Resumed, RunDone};
 use crate::scene::Control;
 use crate::solver::Method;
 
 /// Prints events.
 pub(super) struct Show {
     quiet: bool,
-    bar: Option<ProgressBar>,
+    printer: Printer,
+    /// There is a bar.
+    bar: bool,
     stage: Option<StageNow>,
     /// Counts up to the last increment shown.
     totals: Option<Totals>,
@@ -29,19 +32,19 @@ pub(super) struct Show {
 }
 
 impl Show {
-    pub(super) fn new(quiet: bool) -> Show {
-        let bar = (!quiet && std::io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::new_spinner();
-            bar.enable_steady_tick(Duration::from_millis(100));
-            bar
-        });
-        Show { quiet, bar, stage: None, totals: None, ticker: None, widths: [0, 0] }
+    pub(super) fn new(quiet: bool, printer: &Printer) -> Show {
+        let bar = !quiet && std::io::stderr().is_terminal();
+        if bar {
+            printer.bar(|bar| bar.enable_steady_tick(Duration::from_millis(100)));
+        }
+        let printer = printer.clone();
+        Show { quiet, printer, bar, stage: None, totals: None, ticker: None, widths: [0, 0] }
     }
 
     /// Shows the bar by a template, in which `{stage}` is the stage of work under way.
     fn style(&self, template: &str) {
-        if let (Some(bar), Some(stage), Ok(style)) =
-            (&self.bar, self.stage.clone(), ProgressStyle::with_template(template))
+        if let (true, Some(stage), Ok(style)) =
+            (self.bar, self.stage.clone(), ProgressStyle::with_template(template))
         {
             let name = move |_: &ProgressState, text: &mut dyn std::fmt::Write| {
                 // a bar that cannot be drawn is no loss
@@ -51,7 +54,8 @@ impl Show {
                     let _ = write!(text, " at {load_factor:.4}, {parts} parts, {iterations} iterations");
                 }
             };
-            bar.set_style(style.with_key("stage", name));
+            let style = style.with_key("stage", name);
+            self.printer.bar(|bar| bar.set_style(style));
         }
     }
 
@@ -60,20 +64,13 @@ impl Show {
         if self.quiet {
             return;
         }
-        match &self.bar {
-            Some(bar) => bar.suspend(|| println!("{text}")),
-            None => println!("{text}"),
-        }
+        self.printer.out(text);
         self.ticker.iter().for_each(Ticker::told);
     }
 
     /// A warning is worth its lines also when everything else is quiet.
     pub(super) fn warning(&self, Warning { code, what, help }: &Warning) {
-        let text = format!("warning: {code} {what}\n         help: {help}");
-        match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{text}")),
-            None => eprintln!("{text}"),
-        }
+        self.printer.error(&format!("warning: {code} {what}\n         help: {help}"));
     }
 
     pub(super) fn event(&mut self, event: Event) {
@@ -81,7 +78,8 @@ impl Show {
             Event::Began(stage) => {
                 self.stage = Some(stage.clone());
                 self.style("{spinner} {stage} {elapsed}");
-                self.ticker = (self.bar.is_none() && !self.quiet).then(|| Ticker::start(stage.clone()));
+                let told = !self.bar && !self.quiet;
+                self.ticker = told.then(|| Ticker::start(stage.clone(), self.printer.clone()));
             }
             Event::Meshed { name, path, reused } => {
                 let how = if reused { "reused" } else { "meshed" };
@@ -89,13 +87,25 @@ impl Show {
             }
             Event::Interface(interface) => self.line(&describe(interface)),
             Event::Warning(warning) => self.warning(warning),
+            Event::Resumed(Resumed::Anew) => self.line("resume   there is no checkpoint, the run begins"),
+            Event::Resumed(Resumed::After { increments, passed }) => {
+                self.line(&format!("resume   goes on after increment {increments}"));
+                if let Some(why) = passed {
+                    self.line(&format!("{:<8} {:<12} {why}", "", "not later:"));
+                }
+            }
+            Event::Left(folder) => {
+                self.printer
+                    .error(&format!("note: the results of an earlier run in {} stay", folder.display()));
+            }
             Event::Reused(what) => self.line(&format!("reused   {what}")),
             Event::Increment { row, number, of, total, totals, problem, .. } => {
                 if self.totals.is_none() {
                     self.begin(total, totals, problem);
                 }
-                if let Some(bar) = &self.bar {
-                    bar.set_position(row.increment as u64);
+                if self.bar {
+                    let position = row.increment as u64;
+                    self.printer.bar(move |bar| bar.set_position(position));
                 }
                 let marks = marks(totals, self.totals.as_ref());
                 self.line(increment(self.widths, row, number, of, &marks).trim_end());
@@ -124,15 +134,15 @@ impl Show {
             "{:<name$} {:>count$} {:>10} {:>6} {:>10} {:>10}",
             "step", "incr", "load", "iter", "residual", "energy"
         ));
-        if let Some(bar) = &self.bar {
-            bar.set_length(total as u64);
+        if self.bar {
+            self.printer.bar(move |bar| bar.set_length(total as u64));
             self.style("{bar:30} {pos}/{len} {stage} {eta}");
         }
     }
 
     pub(super) fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+        if self.bar {
+            self.printer.bar(|bar| bar.finish_and_clear());
         }
     }
 

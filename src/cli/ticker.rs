@@ -3,6 +3,7 @@
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::time::Duration;
 
+use super::printer::Printer;
 use crate::history::{PartNow, StageNow};
 
 /// Time without a line after which one tells what is under way.
@@ -13,8 +14,8 @@ pub(super) struct Ticker(Sender<()>);
 
 impl Ticker {
     /// Starts for a run whose stage this is.
-    pub(super) fn start(stage: StageNow) -> Ticker {
-        Ticker::every(SILENCE, move || println!("{}", under_way(stage.name(), stage.part())))
+    pub(super) fn start(stage: StageNow, printer: Printer) -> Ticker {
+        Ticker::every(SILENCE, move || printer.out(&under_way(stage.name(), stage.part())))
     }
 
     fn every(silence: Duration, tell: impl Fn() + Send + 'static) -> Ticker {

@@ -13,6 +13,7 @@ mod analysis;
 mod arclength;
 mod balance;
 mod beyond;
+mod checkpoint;
 mod clock;
 mod converged;
 mod dissipate;
@@ -46,6 +47,7 @@ mod water_loads;
 
 pub use balance::{Resultant, resultant};
 pub use beyond::Beyond;
+pub use checkpoint::{Checkpoint, HistoryState};
 pub use clock::{Clock, PartNow, StageNow, processor};
 pub use equilibrium::strategy::Operations;
 pub use equilibrium::{Equations, Means};
@@ -59,7 +61,6 @@ use serde::{Deserialize, Serialize};
 
 use account::account;
 use analysis::{Analysis, complete};
-use equilibrium::Search;
 use equilibrium::strategy::active;
 use failure::{no_equilibrium, singular, stopped};
 use load::LoadStep;
@@ -103,17 +104,6 @@ enum Phase {
     Lost { number: usize, load_factor: f64, why: Unconverged, shown: bool },
 }
 
-/// The state of a history, from which it can go on.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Checkpoint {
-    position: Position,
-    state: ModelState,
-    totals: Totals,
-    search: Search,
-    /// Displacements and reactions at the start of the step under way.
-    before: Option<[Vec<f64>; 2]>,
-}
-
 impl<'a> History<'a> {
     /// Before the first step.
     pub fn new(problem: &'a Problem, equations: &'a Equations, clock: Clock) -> History<'a> {
@@ -127,50 +117,6 @@ impl<'a> History<'a> {
         let position = Position { step_number: 0, phase: Phase::Supports };
         let stop = equations.stop.clone();
         History { analysis: Analysis { problem, engine, state, totals, clock, stop }, position, loads: None }
-    }
-
-    /// From a checkpoint of a history of the same problem.
-    pub fn resume(
-        problem: &'a Problem,
-        equations: &'a Equations,
-        clock: Clock,
-        checkpoint: Checkpoint,
-    ) -> Result<History<'a>> {
-        let Checkpoint { position, state, totals, search, before } = checkpoint;
-        let engine = equations.engine();
-        let stop = equations.stop.clone();
-        let mut analysis = Analysis { problem, engine, state, totals, clock, stop };
-        let mut loads = None;
-        if let (Some(step), false) =
-            (problem.steps.get(position.step_number), matches!(position.phase, Phase::Supports))
-        {
-            analysis.clock.begin("factor");
-            let kept = analysis.totals.increments;
-            analysis.engine.support(&step.constrained).map_err(|_| singular(step, kept))?;
-            if let Some([u, reactions]) = before {
-                let held = analysis.state.held.clone();
-                let start = Start::new(problem, step, initial_force(problem), u, reactions, held);
-                let ramp = start.ramp()?;
-                load::prepare(
-                    &mut analysis,
-                    step,
-                    &start,
-                    ramp.as_ref(),
-                    matches!(position.phase, Phase::Path(_)),
-                );
-                loads = Some((start, ramp));
-            }
-        }
-        analysis.engine.restore(search);
-        Ok(History { analysis, position, loads })
-    }
-
-    /// The state after the last increment, from which the history can go on.
-    pub fn checkpoint(&self) -> Checkpoint {
-        let Analysis { state, totals, engine, .. } = &self.analysis;
-        let before = self.loads.as_ref().map(|(start, _)| start.before().map(<[f64]>::to_vec));
-        let (position, search) = (self.position.clone(), engine.search());
-        Checkpoint { position, state: state.clone(), totals: totals.clone(), search, before }
     }
 
     /// The model after the last increment.

@@ -18,6 +18,7 @@ use super::loading::{Ledger, LoadForces, StepLoad};
 use super::prestress::{holding, stresses, warmed};
 use super::water::{water_at, water_work};
 use crate::assembly::InterfaceOperator;
+use crate::continuum::Stresses;
 use crate::law::{self, Local, local};
 use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem, WaterFields};
@@ -206,10 +207,7 @@ impl ModelState {
     pub(super) fn recover(&mut self, problem: &Problem) {
         let Problem { model, interfaces, .. } = problem;
         let u = &self.snapshot.u;
-        self.snapshot.stresses = match self.is_complete() {
-            true => (0..model.subdomains.len()).map(|b| stresses(problem, self.at, b, u)).collect(),
-            false => Vec::new(),
-        };
+        self.snapshot.stresses = self.stresses(problem);
         self.stored = match &self.ledger {
             Some(ledger) if !self.is_complete() => ledger.stored(across(model, &self.snapshot)),
             _ => self.snapshot.stresses.iter().map(|stresses| stresses.energy).sum(),
@@ -256,6 +254,12 @@ impl ModelState {
         }
         let energies = [self.work, self.stored, self.dissipated, self.released].map(f64::abs);
         self.largest = energies.into_iter().fold(self.largest, f64::max);
+    }
+
+    /// Stresses of all bodies; none where displacements are not known.
+    pub(super) fn stresses(&self, problem: &Problem) -> Vec<Stresses> {
+        let bodies = if self.is_complete() { problem.model.subdomains.len() } else { 0 };
+        (0..bodies).map(|b| stresses(problem, self.at, b, &self.snapshot.u)).collect()
     }
 
     /// The largest energy so far [force × length].

@@ -2,8 +2,9 @@
 //!
 //! A mesh is kept as `<name>-<12 hex digits>.msh`. The digits are the SHA-256 of all that decides it: the .geo
 //! and what it includes, the parameters, the options and the version of gmsh. A file appears there only whole and
-//! checked, so that its name alone tells that it is good.
+//! checked, its own SHA-256 beside it; one that is damaged later is made again.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -14,6 +15,10 @@ use super::mirror::completed;
 use super::read::from_bytes;
 use super::sources::Sources;
 use crate::error::{Error, Result};
+use crate::files::{HIDDEN, write_whole};
+
+/// A disk with less room than this is full [bytes].
+const LEFT: usize = 1 << 16;
 
 /// A geometry to be meshed, or a mesh of an earlier format to be converted.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +64,7 @@ pub fn digest(file: &Path) -> Result<Option<String>> {
         hash.update((part.len() as u64).to_le_bytes());
         hash.update(part);
     });
-    let digits = hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let digits = hex(&hash.finalize());
     Ok(sources.closed.then_some(digits))
 }
 
@@ -79,23 +84,61 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     let task = Task { file: &geo, parameters: &job.parameters, conversion: sources.is_mesh };
     let key = key(&sources, &task, gmsh.version()?);
     let path = cache.join(format!("{}-{key}.msh", file_name(&job.name)));
-    if sources.closed && path.is_file() {
+    if sources.closed && is_good(&path) {
         return Ok(Meshed { path, reused: true });
     }
     std::fs::create_dir_all(cache).map_err(Error::io("create", cache))?;
     let cache = std::path::absolute(cache).map_err(Error::io("create", cache))?;
     let folder = tempfile::Builder::new()
-        .prefix(".gmsh-")
+        .prefix(&format!("{HIDDEN}gmsh-"))
         .tempdir_in(&cache)
         .map_err(Error::io("write to", &cache))?;
-    let mirror = folder.path().join("mirror");
-    let source = completed(&sources, &geo, &mirror)?;
-    let written = gmsh.mesh(&task, &source, &mirror, folder.path())?;
-    let bytes = std::fs::read(&written).map_err(Error::io("read", &written))?;
-    from_bytes(&job.geo, &bytes)?;
+    let lock = folder.path().join("lock");
+    let lock = std::fs::File::create(&lock).map_err(Error::io("write", &lock))?;
+    // whoever clears up leaves the folder alone as long as it is locked
+    let _ = lock.try_lock();
+    let made = || -> Result<(PathBuf, String)> {
+        let mirror = folder.path().join("mirror");
+        let source = completed(&sources, &geo, &mirror)?;
+        let written = gmsh.mesh(&task, &source, &mirror, folder.path())?;
+        let bytes = std::fs::read(&written).map_err(Error::io("read", &written))?;
+        from_bytes(&job.geo, &bytes)?;
+        Ok((written, hex(&Sha256::digest(&bytes))))
+    };
+    let (written, digits) = made().map_err(|error| if_disk_is_full(&cache, error))?;
     std::fs::File::open(&written).and_then(|file| file.sync_all()).map_err(Error::io("write", &written))?;
+    let sum = sum_file(&path);
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    write_whole(&sum, format!("{digits}  {name}\n").as_bytes())?;
     std::fs::rename(&written, &path).map_err(Error::io("write", &path))?;
     Ok(Meshed { path, reused: false })
+}
+
+/// The file beside a mesh that holds its SHA-256, as `sha256sum -c` reads it.
+pub fn sum_file(mesh: &Path) -> PathBuf {
+    mesh.with_extension("msh.sha256")
+}
+
+/// True for a mesh that is as it was written.
+fn is_good(path: &Path) -> bool {
+    let sum = std::fs::read_to_string(sum_file(path)).unwrap_or_default();
+    std::fs::read(path).is_ok_and(|bytes| sum.starts_with(&hex(&Sha256::digest(&bytes))))
+}
+
+/// gmsh does not say that the disk is full: an error of its output is that of the disk if nothing more can be written there.
+fn if_disk_is_full(folder: &Path, error: Error) -> Error {
+    let tried = tempfile::tempfile_in(folder).and_then(|mut file| {
+        file.write_all(&[0; LEFT])?;
+        file.sync_all()
+    });
+    match (&error, tried) {
+        (Error::Stopped { .. } | Error::Io { .. }, _) | (_, Ok(())) => error,
+        (_, Err(full)) => Error::io("write the mesh to", folder)(full),
+    }
+}
+
+fn hex(digest: &[u8]) -> String {
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// 12 hex digits that change with whatever changes the mesh.
@@ -111,7 +154,7 @@ fn key(sources: &Sources, task: &Task, version: &str) -> String {
     }
     add(task.afterwards().as_bytes());
     sources.digest(&mut add);
-    hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
+    hex(&hash.finalize()[..6])
 }
 
 /// A name without what a file name cannot hold.

@@ -139,7 +139,9 @@ impl Gmsh {
         std::fs::create_dir_all(&home).map_err(Error::io("create", &home))?;
         let output = File::create(&log).map_err(Error::io("create", &log))?;
         let errors = output.try_clone().map_err(Error::io("create", &log))?;
-        let child = Command::new(&self.program)
+        let mut command = Command::new(&self.program);
+        in_its_own_group(&mut command);
+        let child = command
             .args(arguments)
             .current_dir(here)
             .env("GMSH_HOME", &home) // else ~/.gmshrc and ~/.gmsh-options would change the mesh
@@ -151,7 +153,7 @@ impl Gmsh {
         let waited = wait(&mut child, self.limit, &self.stop);
         if !matches!(waited, Ok(Some(_))) {
             // killing fails only if it has ended by itself
-            let _ = child.kill();
+            kill_group(&mut child);
             let _ = child.wait();
         }
         if let Some(signal) = self.stop.requested() {
@@ -194,6 +196,25 @@ impl Gmsh {
     fn broken(&self, what: String, help: &str) -> Error {
         Error::Program { program: self.program.display().to_string(), what, help: help.into() }
     }
+}
+
+/// Whatever a mesher starts belongs to its group and ends with it.
+#[cfg(unix)]
+fn in_its_own_group(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    command.process_group(0);
+}
+
+#[cfg(not(unix))]
+fn in_its_own_group(_: &mut Command) {}
+
+/// Kills the mesher and what it has started.
+fn kill_group(child: &mut Child) {
+    #[cfg(unix)]
+    if let Some(group) = i32::try_from(child.id()).ok().and_then(rustix::process::Pid::from_raw) {
+        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
+    }
+    let _ = child.kill();
 }
 
 /// The exit status, or nothing if `limit` passes first or somebody wants it to stop. Asks now and then: a signal handler would concern all threads.

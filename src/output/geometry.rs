@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::earlier::remove_grids;
-use super::files::write_whole;
+use super::manifest::{Listing, Manifest, check_free};
 use super::vtu::{Array, VtuGrid};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::files::write_whole;
 
 /// Kinds of lines and points in the file.
 #[derive(Debug, Clone, Copy)]
@@ -31,9 +31,18 @@ enum GeometryKind {
 const TYPES: [u8; 3] = [1, 3, 4];
 
 /// Writes `<subdomain>.vtu` with the quality of every cell and `<interface>.vtu` with chains A and B, segments, their
-/// parents and feet, grid, law points and normals into a folder, and returns it.
-pub fn write_geometry(folder: &Path, model: &Model) -> Result<PathBuf> {
-    remove_grids(folder)?;
+/// parents and feet, grid, law points and normals into a folder, and returns it. Those of an earlier scene go.
+pub fn write_geometry(folder: &Path, name: &str, model: &Model) -> Result<PathBuf> {
+    let parts = model.subdomains.iter().map(|subdomain| &subdomain.name);
+    let all = parts.chain(model.interfaces.iter().map(|interface| &interface.name));
+    let files: Vec<String> = all.map(|name| format!("{name}.vtu")).collect();
+    let earlier = Listing::read(folder)?;
+    check_free(folder, earlier.as_ref(), &files, &[])?;
+    if let Some(earlier) = earlier {
+        earlier.remove_all(folder)?;
+    }
+    std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+    Manifest::create(folder, name)?.add(files.iter().map(String::as_str))?;
     for subdomain in &model.subdomains {
         write_whole(&folder.join(format!("{}.vtu", subdomain.name)), &quality(subdomain).encode())?;
     }

@@ -1,18 +1,20 @@
 //! Results on disk: fields as VTU and PVD, history.csv, summary.json. Never feeds back.
 //!
-//! Every file is complete or absent: it is written aside and renamed.
+//! Every file is complete or absent at every moment: it is written aside and renamed. The manifest lists them all.
 
-mod earlier;
 mod fields;
 mod files;
 mod geometry;
+mod growing;
+mod manifest;
 mod pvd;
 mod vtu;
 mod writer;
 
-pub use files::{csv_field, write_json, write_whole};
+pub use files::{csv_field, write_json};
 pub use geometry::write_geometry;
-pub use writer::{HistoryRow, Writer};
+pub use manifest::{Listing, MANIFEST, check_free};
+pub use writer::{HistoryRow, Lengths, Writer, collection, files_once};
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +27,8 @@ use crate::problem::WaterFields;
 pub struct Snapshot {
     /// Displacement of every dof [length].
     pub u: Vec<f64>,
-    /// Stresses of every body.
+    /// Stresses of every body; a checkpoint leaves them out, since displacements decide them.
+    #[serde(skip)]
     pub stresses: Vec<Stresses>,
     /// Jump (n, t, s) at the law points of every interface [length].
     pub jumps: Vec<Vec<Local>>,

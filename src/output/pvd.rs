@@ -2,17 +2,17 @@
 
 use std::fmt::Write as _;
 
-/// The beginning of every collection.
+/// The beginning of every collection, and its end.
 pub(super) const HEAD: &str = "<?xml version=\"1.0\"?>\n\
     <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
     <Collection>\n";
+pub(super) const END: &str = "</Collection>\n</VTKFile>\n";
 
-/// The text of a collection: time, which is the number of the row, name of the part, file.
-pub(super) fn collection(entries: &[(usize, String, String)]) -> String {
-    let mut text = String::from(HEAD);
+/// The text of entries: time, which is the number of the row, name of the part, file.
+pub(super) fn entries(entries: &[(usize, String, String)]) -> String {
+    let mut text = String::new();
     for (time, part, file) in entries {
         let _ = writeln!(text, "<DataSet timestep=\"{time}\" name=\"{part}\" part=\"0\" file=\"{file}\"/>");
     }
-    text.push_str("</Collection>\n</VTKFile>\n");
     text
 }

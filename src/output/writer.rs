@@ -4,21 +4,58 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{RowData, Snapshot, earlier, fields, files, pvd};
+use super::growing::{Growing, TextLength, beginning};
+use super::manifest::{MANIFEST, Manifest};
+use super::{RowData, Snapshot, fields, files, pvd};
 use crate::assembly::Model;
 use crate::error::{Error, Result};
+use crate::files::write_whole;
 use crate::law::LawVariable;
 use crate::problem::Problem;
+
+const HISTORY: &str = "history.csv";
+const SUMMARY: &str = "summary.json";
 
 /// Writes one run's results as they come.
 #[derive(Debug)]
 pub struct Writer {
     folder: PathBuf,
     name: String,
-    collection: Vec<(usize, String, String)>,
-    history: String,
+    manifest: Manifest,
+    /// None before the first row, and before the first fields.
+    history: Option<Growing>,
+    collection: Option<Growing>,
+    /// The first line of the history.
+    head: String,
+}
+
+/// Lengths that the growing files had at some row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Lengths {
+    manifest: TextLength,
+    history: Option<TextLength>,
+    collection: Option<TextLength>,
+}
+
+impl Lengths {
+    /// Without the fields that came after others.
+    pub fn without_fields_since(self, before: &Lengths) -> Lengths {
+        Lengths { history: self.history, ..*before }
+    }
+}
+
+/// Names of the files that a run writes once.
+pub fn files_once(name: &str, model: &Model) -> Vec<String> {
+    let mut names = vec![HISTORY.into(), SUMMARY.into(), collection(name)];
+    names.extend(model.interfaces.iter().map(|interface| format!("midplane/{}.vtu", interface.name)));
+    names
+}
+
+/// Name of the collection of fields.
+pub fn collection(name: &str) -> String {
+    format!("{name}.pvd")
 }
 
 /// A row of history.csv.
@@ -41,24 +78,65 @@ pub struct HistoryRow {
 }
 
 impl Writer {
-    /// Opens a folder for a run named `name`; results of earlier runs there are removed, whatever their names. `columns` are the names of
-    /// probes and reactions.
+    /// Begins the results of a run named `name` in a folder that holds none. `columns` are the names of probes and reactions.
     pub fn create(folder: &Path, name: &str, columns: &[String]) -> Result<Writer> {
-        earlier::remove_results(folder)?;
         std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
-        let mut history = String::from("step,increment,load_factor,iterations,residual");
-        for column in columns {
-            let _ = write!(history, ",{}", files::csv_field(column));
-        }
-        history.push_str(",energy_balance\n");
-        Ok(Writer { folder: folder.into(), name: name.into(), collection: Vec::new(), history })
+        let manifest = Manifest::create(folder, name)?;
+        let (history, collection, head) = (None, None, head(columns));
+        Ok(Writer { folder: folder.into(), name: name.into(), manifest, history, collection, head })
     }
 
-    /// Writes the geometry of every interface once.
-    pub fn midplanes(&self, model: &Model) -> Result<()> {
+    /// True if the files of a folder begin as they were at these lengths.
+    pub fn is_continued(folder: &Path, name: &str, lengths: &Lengths) -> Result<bool> {
+        let texts = [
+            (folder.join(MANIFEST), Some(lengths.manifest)),
+            (folder.join(HISTORY), lengths.history),
+            (folder.join(collection(name)), lengths.collection),
+        ];
+        for (path, length) in texts {
+            if let Some(length) = length
+                && beginning(&path, length)?.is_none()
+            {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Goes back to lengths that the files have had; what was written later is removed.
+    pub fn reopen(folder: &Path, name: &str, columns: &[String], lengths: &Lengths) -> Result<Writer> {
+        let at = |file: &str, length: Option<TextLength>, end| {
+            let path = folder.join(file);
+            length.map(|length| Growing::reopen(&path, length, end)).transpose()
+        };
+        let history = at(HISTORY, lengths.history, "")?;
+        let collection = at(&collection(name), lengths.collection, pvd::END)?;
+        let manifest = Manifest::reopen(folder, lengths.manifest)?;
+        let (folder, name, head) = (folder.into(), name.into(), head(columns));
+        Ok(Writer { folder, name, manifest, history, collection, head })
+    }
+
+    /// Lengths of the growing files so far.
+    pub fn lengths(&self) -> Lengths {
+        Lengths {
+            manifest: self.manifest.length(),
+            history: self.history.as_ref().map(Growing::length),
+            collection: self.collection.as_ref().map(Growing::length),
+        }
+    }
+
+    /// Lists files that are about to be written.
+    pub fn list<'n>(&mut self, files: impl IntoIterator<Item = &'n str>) -> Result<()> {
+        self.manifest.add(files)
+    }
+
+    /// Writes the geometry of every interface once; all that is written once is listed.
+    pub fn midplanes(&mut self, model: &Model) -> Result<()> {
+        let names = files_once(&self.name, model);
+        self.list(names.iter().map(String::as_str))?;
         for interface in &model.interfaces {
             let path = self.folder.join("midplane").join(format!("{}.vtu", interface.name));
-            files::write_whole(&path, &fields::midplane(interface).encode())?;
+            write_whole(&path, &fields::midplane(interface).encode())?;
         }
         Ok(())
     }
@@ -72,10 +150,12 @@ impl Writer {
             .iter()
             .map(|subdomain| &subdomain.name)
             .chain(model.interfaces.iter().map(|interface| &interface.name));
-        let names: Vec<&String> = names.collect();
+        let entries: Vec<(usize, String, String)> =
+            names.map(|name| (number, name.clone(), file_name(name, number))).collect();
+        self.list(entries.iter().map(|(_, _, file)| file.as_str()))?;
         let subdomains = model.subdomains.len();
         let variables: Vec<&LawVariable> = problem.variables().collect();
-        names.par_iter().enumerate().try_for_each(|(i, name)| {
+        entries.par_iter().enumerate().try_for_each(|(i, (_, _, file))| {
             let grid = if i < subdomains {
                 fields::subdomain(model, i, snapshot, row)
             } else {
@@ -84,34 +164,61 @@ impl Writer {
                 let laws = &interfaces[k].laws;
                 fields::interface(&model.interfaces[k], (laws, &variables), water, k, snapshot, row)
             };
-            files::write_whole(&self.folder.join(file_name(name, number)), &grid.encode())
+            write_whole(&self.folder.join(file), &grid.encode())
         })?;
-        for name in names {
-            self.collection.push((number, name.clone(), file_name(name, number)));
+        let text = pvd::entries(&entries);
+        match &mut self.collection {
+            Some(collection) => collection.add(&text)?,
+            None => {
+                let path = self.folder.join(collection(&self.name));
+                self.collection = Some(Growing::create(&path, &format!("{}{text}", pvd::HEAD), pvd::END)?);
+            }
         }
-        let text = pvd::collection(&self.collection);
-        files::write_whole(&self.folder.join(format!("{}.pvd", self.name)), text.as_bytes())
+        Ok(())
     }
 
     /// Adds a row to the history.
     pub fn row(&mut self, row: &HistoryRow) -> Result<()> {
         let HistoryRow { step, increment, load_factor, iterations, residual, energy_balance, values } = row;
-        let _ = write!(
-            self.history,
-            "{},{increment},{load_factor},{iterations},{residual:e}",
-            files::csv_field(step)
-        );
+        let step = files::csv_field(step);
+        let mut text = format!("{step},{increment},{load_factor},{iterations},{residual:e}");
         for value in values {
-            let _ = write!(self.history, ",{value:e}");
+            let _ = write!(text, ",{value:e}");
         }
-        let _ = writeln!(self.history, ",{energy_balance:e}");
-        files::write_whole(&self.folder.join("history.csv"), self.history.as_bytes())
+        let _ = writeln!(text, ",{energy_balance:e}");
+        match &mut self.history {
+            Some(history) => history.add(&text)?,
+            None => {
+                let path = self.folder.join(HISTORY);
+                self.history = Some(Growing::create(&path, &format!("{}{text}", self.head), "")?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on in another folder, into which all that is written so far is moved by `moving`.
+    pub fn move_to(&mut self, folder: &Path, moving: impl FnOnce() -> Result<()>) -> Result<()> {
+        self.history.iter_mut().chain(&mut self.collection).for_each(|text| text.moves_to(folder));
+        moving()?;
+        self.manifest.moved_to(folder);
+        self.folder = folder.into();
+        Ok(())
     }
 
     /// Writes summary.json.
     pub fn summary(&self, summary: &impl Serialize) -> Result<()> {
-        files::write_json(&self.folder.join("summary.json"), summary)
+        files::write_json(&self.folder.join(SUMMARY), summary)
     }
+}
+
+/// The first line of the history.
+fn head(columns: &[String]) -> String {
+    let mut head = String::from("step,increment,load_factor,iterations,residual");
+    for column in columns {
+        let _ = write!(head, ",{}", files::csv_field(column));
+    }
+    head.push_str(",energy_balance\n");
+    head
 }
 
 fn file_name(name: &str, number: usize) -> String {

@@ -2,18 +2,26 @@
 //!
 //! read scene ▸ mesh ▸ read meshes ▸ bind ▸ assemble ▸ factor ▸ solve ▸ recover ▸ write
 
+mod checkpoint;
 mod folder;
+mod identity;
+mod keeper;
+mod lock;
 pub mod point;
 mod prepare;
 mod presets;
 mod results;
+mod resume;
 mod shared;
 mod summary;
 
+pub use folder::Folder;
+pub use keeper::Every;
 pub use prepare::{Prepared, mesh, prepare};
 pub use presets::{parse_scene, read_scene};
 pub use shared::Shared;
 
+use keeper::Keeper;
 use results::Results;
 
 use std::path::{Path, PathBuf};
@@ -21,7 +29,7 @@ use std::time::Duration;
 
 use crate::error::{Error, Result, Stop, Warning};
 use crate::history::{Clock, Equations, History, Means, ModelState, StageNow, Totals, memory};
-use crate::output::HistoryRow;
+use crate::output::{self, HistoryRow};
 use crate::problem::Problem;
 use crate::scene::Fields;
 
@@ -40,6 +48,10 @@ pub struct Options {
     pub gmsh_limit: Duration,
     /// A request to stop: the run ends with what has converged.
     pub stop: Stop,
+    /// Goes on from the last checkpoint in the folder, if there is one.
+    pub resume: bool,
+    /// How often a checkpoint is written.
+    pub checkpoints: Every,
 }
 
 impl Options {
@@ -47,7 +59,8 @@ impl Options {
     pub fn of(scene: &Path) -> Options {
         let (gmsh, gmsh_limit) = ("gmsh".into(), Duration::from_secs(600));
         let (out, settings, stop) = (None, Vec::new(), Stop::default());
-        Options { scene: scene.into(), out, settings, gmsh, gmsh_limit, stop }
+        let (resume, checkpoints) = (false, Every::Seconds(60.0));
+        Options { scene: scene.into(), out, settings, gmsh, gmsh_limit, stop, resume, checkpoints }
     }
 }
 
@@ -88,6 +101,24 @@ pub enum Event<'a> {
     },
     /// Something another run had left was used, such as "factor of lower".
     Reused(&'a str),
+    /// The run goes on from a checkpoint, or begins although it was to go on.
+    Resumed(&'a Resumed),
+    /// A run that failed has left the results of an earlier one in their folder.
+    Left(&'a Path),
+}
+
+/// Start of a run that was to go on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Resumed {
+    /// There is no checkpoint.
+    Anew,
+    /// After so many increments.
+    After {
+        /// The increments.
+        increments: usize,
+        /// Why it is not a later checkpoint, if there is one.
+        passed: Option<String>,
+    },
 }
 
 /// Receiver of events.
@@ -115,19 +146,52 @@ pub fn run(options: &Options, listen: Listener) -> Result<RunDone> {
 
 /// `run` with what other runs of this process have left, and leaving them what they can use.
 pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener) -> Result<RunDone> {
+    let mut placed = false;
+    let done = attempt(options, shared, &mut placed, listen);
+    if let (Err(error), false) = (&done, placed)
+        && !matches!(error, Error::Folder { .. })
+        && let Some(folder) = prepare::earlier_results(options)
+    {
+        listen(Event::Left(&folder));
+    }
+    done
+}
+
+/// A run; `placed` becomes true when its results are in their place.
+fn attempt(
+    options: &Options,
+    shared: Option<&Shared>,
+    placed: &mut bool,
+    listen: Listener,
+) -> Result<RunDone> {
     let Prepared { scene, name, problem, folder, mut clock } =
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
+    let mut results = Results::new(&scene, &name, &problem, folder)?;
+    let identity = identity::Identity::new(&scene, &problem);
+    let resumed = if options.resume { resume::find(&mut results, &identity, listen)? } else { None };
+    let method = resumed.as_ref().map(|checkpoint| checkpoint.method());
     let cache = shared.map(|shared| shared.cache.clone());
-    let means = Means { cache, stop: options.stop.clone(), ..Means::default() };
+    let means = Means { cache, stop: options.stop.clone(), method, ..Means::default() };
     let equations = Equations::new(&problem, means, &mut clock)?;
-    let mut history = History::new(&problem, &equations, clock);
-    let mut results = Results::new(&scene, &name, &problem, folder);
-    let end = match follow(&mut history, &mut results, listen) {
+    let mut history = match resumed {
+        Some(checkpoint) => resume::history(&problem, &equations, clock, checkpoint, results.path())?,
+        None => History::new(&problem, &equations, clock),
+    };
+    let increments = history.totals().increments;
+    let mut keeper = Keeper::new(options.checkpoints, &identity, &problem, increments)?;
+    let followed = follow(&mut history, &mut results, &mut keeper, &options.stop, listen);
+    *placed = !results.leaves_earlier();
+    if followed.is_err() {
+        // what ended the run is told, not that its state cannot be kept for the same reason
+        let _ = keeper.end(&mut results);
+    }
+    let end = match followed {
         Ok(()) => None,
         Err(end @ Error::NoEquilibrium { .. }) => Some(presets::suspected(end, scene.accuracy)),
         Err(Error::Stopped { signal, kept, .. }) => {
-            Some(Error::Stopped { signal, kept, folder: path.clone() })
+            let folder = if *placed { path.clone() } else { PathBuf::new() };
+            Some(Error::Stopped { signal, kept, folder })
         }
         Err(other) => return Err(other),
     };
@@ -144,21 +208,30 @@ pub fn run_sharing(options: &Options, shared: Option<&Shared>, listen: Listener)
     }
     let collection = match scene.output.fields {
         Fields::None => path.clone(),
-        _ => path.join(format!("{name}.pvd")),
+        _ => path.join(output::collection(&name)),
     };
     let (clock, totals) = (history.clock().clone(), results.totals);
     Ok(RunDone { folder: path, collection, clock, totals, peak_memory: memory::peak() })
 }
 
-/// Goes through the history, writes every increment and tells of it.
-fn follow(history: &mut History, results: &mut Results, listen: Listener) -> Result<()> {
+/// Goes through the history, writes every increment, tells of it and keeps the state.
+fn follow(
+    history: &mut History,
+    results: &mut Results,
+    keeper: &mut Keeper,
+    stop: &Stop,
+    listen: Listener,
+) -> Result<()> {
     let problem = results.problem;
     let total: usize = problem.steps.iter().map(|step| step.increments).sum();
     while let Some(increment) = history.next()? {
         history.clock().begin("write");
         let (state, totals) = (history.state(), history.totals());
-        if let Some(row) = results.write(&increment, state, totals)? {
+        let row = results.write(&increment, state, totals)?;
+        keeper.after(&increment, history, results, stop.requested().is_some())?;
+        if let Some(row) = row {
             let (number, of) = (increment.number, increment.step.increments);
+            let (state, totals) = (history.state(), history.totals());
             listen(Event::Increment { row: &row, number, of, total, totals, problem, state });
         }
     }

@@ -11,6 +11,7 @@ use super::{Event, Listener, Options};
 use crate::error::{Result, name_help};
 use crate::history::Clock;
 use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
+use crate::output::Listing;
 use crate::problem::{Problem, subdomain_meshes};
 use crate::scene::Scene;
 
@@ -74,6 +75,19 @@ pub(super) fn prepare_sharing(
     Ok(Prepared { scene, name, problem, folder, clock })
 }
 
+/// The folder of a run, if it holds the results of an earlier one.
+pub(super) fn earlier_results(options: &Options) -> Option<PathBuf> {
+    let folder = match &options.out {
+        Some(folder) => folder.clone(),
+        None => {
+            let file = &options.scene;
+            let file = if file.is_dir() { file.join("scene.json") } else { file.clone() };
+            Path::new("results").join(scene_name(&file))
+        }
+    };
+    Listing::read(&folder).ok().flatten().map(|_| folder)
+}
+
 /// Meshes a scene and nothing else.
 pub fn mesh(options: &Options, listen: Listener) -> Result<PathBuf> {
     let mut folder = mesh_scene(options, None, listen)?.folder;
@@ -102,7 +116,7 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     clock.begin("mesh");
     let (files, file_of) = files(&scene)?;
     let jobs: Vec<Job> = files.iter().filter_map(Origin::job).cloned().collect();
-    let folder = Folder::open(&out)?;
+    let mut folder = Folder::open(&out)?;
     let meshed = match shared {
         Some(shared) => shared.mesh_all(&jobs)?,
         None => {
@@ -112,6 +126,10 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     };
     for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {
         listen(Event::Meshed { name: &job.name, path, reused: *reused });
+        if !reused && shared.is_none() {
+            folder.has_made(path);
+            folder.has_made(&mesh::sum_file(path));
+        }
     }
     let mut made = meshed.into_iter().map(|meshed| meshed.path);
     let files = files.into_iter().filter_map(|file| match file {

@@ -1,10 +1,15 @@
 //! The results of a run as they come: fields, a row of the history, the summary.
+//!
+//! Results of an earlier run in the folder stay until the first row of this one is complete.
 
+use serde::{Deserialize, Serialize};
+
+use super::checkpoint::LATEST;
 use super::folder::Folder;
 use super::summary::{self, Balance};
 use crate::error::{Error, Result};
 use crate::history::{Clock, Increment, ModelState, Totals};
-use crate::output::{HistoryRow, RowData, Writer};
+use crate::output::{HistoryRow, Lengths, Listing, RowData, Writer, check_free, files_once};
 use crate::problem::Problem;
 use crate::scene::{Fields, Scene};
 
@@ -14,22 +19,111 @@ pub(super) struct Results<'a> {
     name: &'a str,
     pub(super) problem: &'a Problem,
     folder: Folder,
+    /// None before the unloaded state; of a run that goes on, before there is something to write.
     writer: Option<Writer>,
+    /// True if the folder has results of an earlier run, whose place is still to be taken.
+    earlier: bool,
+    state: ResultsState,
     /// Loads and reactions at the last increment whose displacements are known.
     balance: Option<Balance>,
     /// The counts up to the last increment.
     pub(super) totals: Totals,
+    /// The checkpoint that the run goes on from.
+    from: Option<(Lengths, String)>,
+}
+
+/// What there is so far: part of a checkpoint.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct ResultsState {
+    lengths: Option<Lengths>,
     /// Number of the last increment whose fields are stored; none before the first.
     stored: Option<usize>,
     /// Rows of the history, that of the unloaded state among them, and states whose fields are stored.
     rows: [usize; 2],
+    /// The same before the fields of the last increment of all, which are not stored if it is not the last of all.
+    before_last: Option<(Lengths, Option<usize>, usize)>,
+    /// The balance of loads and reactions, as JSON.
+    balance: Option<String>,
+    /// Increments after which the run was gone on with.
+    resumed: Vec<usize>,
 }
 
 impl<'a> Results<'a> {
-    /// Results of a run that has not begun: nothing is written yet.
-    pub(super) fn new(scene: &'a Scene, name: &'a str, problem: &'a Problem, folder: Folder) -> Results<'a> {
-        let (writer, balance, totals, stored) = (None, None, Totals::default(), None);
-        Results { scene, name, problem, folder, writer, balance, totals, stored, rows: [0, 0] }
+    /// Results of a run that has not begun: nothing is written yet. Refused where others would be in the way.
+    pub(super) fn new(
+        scene: &'a Scene,
+        name: &'a str,
+        problem: &'a Problem,
+        folder: Folder,
+    ) -> Result<Results<'a>> {
+        let earlier = Listing::read(folder.path())?;
+        if let Some(Listing { scene, .. }) = earlier.as_ref().filter(|earlier| earlier.scene != name) {
+            let what = format!("it holds the results of another scene, {scene}");
+            return Err(Error::folder(folder.path(), what, "remove them, or choose another folder with -o"));
+        }
+        let names = problem.model.subdomains.iter().map(|part| part.name.clone());
+        let names: Vec<String> =
+            names.chain(problem.model.interfaces.iter().map(|i| i.name.clone())).collect();
+        check_free(folder.path(), earlier.as_ref(), &files_once(name, &problem.model), &names)?;
+        let (earlier, state, totals) = (earlier.is_some(), ResultsState::default(), Totals::default());
+        let (writer, balance, from) = (None, None, None);
+        Ok(Results { scene, name, problem, folder, writer, earlier, state, balance, totals, from })
+    }
+
+    /// True if the files of the folder begin with the rows of a checkpoint.
+    pub(super) fn has_rows_of(&self, state: &ResultsState) -> Result<bool> {
+        state.lengths.map_or(Ok(false), |lengths| Writer::is_continued(self.path(), self.name, &lengths))
+    }
+
+    /// Goes on from a checkpoint of this name, after so many increments.
+    pub(super) fn go_on(
+        &mut self,
+        mut state: ResultsState,
+        totals: &Totals,
+        checkpoint: &str,
+        complete: bool,
+    ) {
+        if let (Some((lengths, stored, fields)), false) = (state.before_last.take(), complete) {
+            state.lengths = state.lengths.map(|now| now.without_fields_since(&lengths));
+            state.stored = stored;
+            state.rows[1] = fields;
+        }
+        if !complete {
+            state.resumed.push(totals.increments);
+        }
+        self.from = state.lengths.map(|lengths| (lengths, checkpoint.into()));
+        self.totals = totals.clone();
+        self.balance = state.balance.take().and_then(|text| serde_json::from_str(&text).ok());
+        self.state = state;
+        self.earlier = false;
+        self.folder.keep();
+    }
+
+    /// Path of the folder.
+    pub(super) fn path(&self) -> &std::path::Path {
+        self.folder.path()
+    }
+
+    /// True while the results of an earlier run are in place.
+    pub(super) fn leaves_earlier(&self) -> bool {
+        self.earlier
+    }
+
+    /// The state to be kept.
+    pub(super) fn state(&self) -> ResultsState {
+        let lengths = self.writer.as_ref().map(Writer::lengths);
+        let balance = self.balance.as_ref().and_then(|balance| serde_json::to_string(balance).ok());
+        ResultsState { lengths, balance, ..self.state.clone() }
+    }
+
+    /// Lists a file that is about to be written.
+    pub(super) fn list(&mut self, name: &str) -> Result<()> {
+        self.writer.as_mut().map_or(Ok(()), |writer| writer.list([name]))
+    }
+
+    /// Removes a file of this run that is of no use any more.
+    pub(super) fn remove(&self, name: &str) {
+        let _ = std::fs::remove_file(self.path().join(name)); // it may not be there
     }
 
     /// Writes an increment, or the unloaded state. Returns its row, unless that is there already.
@@ -41,19 +135,22 @@ impl<'a> Results<'a> {
     ) -> Result<Option<HistoryRow>> {
         let unloaded = increment.number == 0 && !increment.ended;
         if unloaded {
-            self.open()?;
+            self.begin()?;
         }
-        let Some(writer) = &mut self.writer else { return Ok(None) };
         let (problem, number) = (self.problem, increment.increment);
+        let last = increment.last && increment.step_number + 1 == problem.steps.len();
         let wanted = match self.scene.output.fields {
             Fields::Every => true,
             Fields::Step => unloaded || increment.ended || increment.last,
-            Fields::Last => {
-                increment.ended || increment.last && increment.step_number + 1 == problem.steps.len()
-            }
+            Fields::Last => increment.ended || last,
             Fields::None => false,
         };
-        if wanted && self.stored.is_none_or(|stored| stored < number) {
+        self.reopen()?;
+        let Some(writer) = &mut self.writer else { return Ok(None) };
+        if wanted && self.state.stored.is_none_or(|stored| stored < number) {
+            if self.scene.output.fields == Fields::Last {
+                self.state.before_last = Some((writer.lengths(), self.state.stored, self.state.rows[1]));
+            }
             let row = RowData {
                 row: number,
                 step: if number == 0 { 0 } else { increment.step_number + 1 },
@@ -61,8 +158,8 @@ impl<'a> Results<'a> {
                 energies: [state.stored, state.dissipated, state.released, state.work],
             };
             writer.fields(problem, &state.snapshot, &row)?;
-            self.stored = Some(number);
-            self.rows[1] += 1;
+            self.state.stored = Some(number);
+            self.state.rows[1] += 1;
         }
         if !state.force.is_empty() {
             self.balance = Some(summary::balance(&problem.model, &state.loads(problem), &state.reactions));
@@ -81,24 +178,49 @@ impl<'a> Results<'a> {
             values: state.probes(problem),
         };
         writer.row(&row)?;
-        self.rows[0] += 1;
+        self.state.rows[0] += 1;
+        if !unloaded && self.earlier {
+            writer.move_to(self.folder.path(), || self.folder.promote())?;
+            self.earlier = false;
+            self.folder.keep();
+        }
         Ok(Some(row).filter(|_| !unloaded))
     }
 
-    /// The first factor stands: a run that is refused before leaves the last results in place.
-    fn open(&mut self) -> Result<()> {
-        self.folder.keep();
-        let writer = Writer::create(self.folder.path(), self.name, &self.problem.columns())?;
+    /// The first factor stands: results can be written, beside those of an earlier run as long as these are in place.
+    fn begin(&mut self) -> Result<()> {
+        let place = if self.earlier { self.folder.staged() } else { self.folder.path().to_path_buf() };
+        if !self.earlier {
+            self.folder.keep();
+        }
+        let mut writer = Writer::create(&place, self.name, &self.problem.columns())?;
+        writer.list([LATEST])?;
         writer.midplanes(&self.problem.model)?;
         self.writer = Some(writer);
         Ok(())
     }
 
-    /// Writes the summary if there is a row.
-    pub(super) fn summary(&self, clock: &Clock, end: Option<&Error>) -> Result<()> {
-        let (Some(writer), Some(balance)) = (&self.writer, &self.balance) else { return Ok(()) };
-        let end = end.map(Error::to_string);
-        let Results { scene, name, problem, totals, rows, .. } = self;
-        writer.summary(&summary::summary(scene, name, problem, (totals, *rows), balance.clone(), clock, end))
+    /// Of a run that goes on: what was written after its checkpoint goes.
+    fn reopen(&mut self) -> Result<()> {
+        let Some((lengths, checkpoint)) = self.from.take() else { return Ok(()) };
+        if checkpoint != LATEST {
+            self.remove(LATEST);
+        }
+        let columns = self.problem.columns();
+        self.writer = Some(Writer::reopen(self.folder.path(), self.name, &columns, &lengths)?);
+        Ok(())
+    }
+
+    /// Writes the summary if there is a row and it is in place.
+    pub(super) fn summary(&mut self, clock: &Clock, end: Option<&Error>) -> Result<()> {
+        if end.is_none() {
+            self.reopen()?;
+        }
+        let Results { scene, name, problem, totals, state, .. } = self;
+        let (Some(writer), Some(balance), false) = (&self.writer, &self.balance, self.earlier) else {
+            return Ok(());
+        };
+        let (end, counts) = (end.map(Error::to_string), (&*totals, state.rows, &state.resumed[..]));
+        writer.summary(&summary::summary(scene, name, problem, counts, balance.clone(), clock, end))
     }
 }

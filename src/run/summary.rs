@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use indexmap::IndexMap;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::assembly::Model;
 use crate::history::{Clock, Operations, Resultant, Snap, Totals, memory, resultant};
@@ -23,10 +23,12 @@ pub(super) struct Summary<'a> {
     /// Variables of the laws: what interface arrays hold beside jump, traction and status.
     variables: Vec<&'static LawVariable>,
     solution: SolutionSummary,
+    /// Increments after which the run was interrupted and gone on with.
+    resumed: &'a [usize],
     /// Why the run ended before its last increment; null if it did not.
     stopped: Option<String>,
     equilibrium: Balance,
-    /// Seconds by stage.
+    /// Seconds by stage, since the run was gone on with last.
     time: IndexMap<&'static str, f64>,
     peak_memory_bytes: Option<u64>,
     /// `W04 interface interface: why; help`.
@@ -94,7 +96,7 @@ struct SolutionSummary {
 }
 
 /// Applied loads against reactions at the last increment.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Balance {
     #[serde(flatten)]
     whole: Resultants,
@@ -105,7 +107,7 @@ pub(super) struct Balance {
 }
 
 /// Resultants by direction [force], and their moments about z.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Resultants {
     load: Vec<f64>,
     reaction: Vec<f64>,
@@ -161,7 +163,7 @@ pub(super) fn summary<'a>(
     scene: &'a Scene,
     name: &'a str,
     problem: &'a Problem,
-    (totals, [rows, fields]): (&Totals, [usize; 2]),
+    (totals, [rows, fields], resumed): (&Totals, [usize; 2], &'a [usize]),
     equilibrium: Balance,
     clock: &Clock,
     stopped: Option<String>,
@@ -211,6 +213,7 @@ pub(super) fn summary<'a>(
             residual: totals.residual,
             energy_balance: totals.energy_balance,
         },
+        resumed,
         stopped,
         equilibrium,
         time,

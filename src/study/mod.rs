@@ -32,7 +32,7 @@ use std::sync::{Mutex, PoisonError, mpsc};
 use crate::error::{At, Error, Result};
 use crate::history::{memory, processor};
 use crate::output::write_json;
-use crate::run::Shared;
+use crate::run::{Folder, Shared};
 
 /// Progress of a study.
 #[derive(Debug)]
@@ -59,6 +59,9 @@ pub struct StudyDone {
 /// Runs every point that has no outcome yet, then writes study.csv and study.json.
 pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress)) -> Result<StudyDone> {
     let total = plan.len();
+    let mut folder = Folder::open(&means.out)?;
+    table::check_own(&means.out)?;
+    folder.keep();
     let shared = &Shared::new(&means.options, &means.meshes());
     let mut outcomes: Vec<Option<PointOutcome>> =
         (0..total).map(|k| point::earlier(plan, means, shared, k)).collect();

@@ -12,7 +12,7 @@ use super::outcome::{LIMIT, PointOutcome};
 use super::plan::StudyPlan;
 use crate::error::{Error, Result};
 use crate::output::write_json;
-use crate::run::{self, Event, Options, Shared};
+use crate::run::{self, Event, Every, Options, Shared};
 
 /// Means by which points are run.
 #[derive(Debug, Clone)]
@@ -102,6 +102,7 @@ pub(super) fn run_once(
         scene: plan.scene.clone(),
         out: Some(means.folder(point)),
         settings: settings.clone(),
+        checkpoints: Every::Never, // a study goes on point by point
         ..means.options.clone()
     };
     let start = Instant::now();

@@ -1,6 +1,7 @@
 //! study.csv and study.json: every point with its axes, measures, errors, sizes, times.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use indexmap::IndexMap;
 use serde::Serialize;
@@ -10,8 +11,9 @@ use super::outcome::PointOutcome;
 use super::plan::StudyPlan;
 use super::point::StudyMeans;
 use super::reference::Limit;
-use crate::error::Result;
-use crate::output::{csv_field, write_json, write_whole};
+use crate::error::{Error, Result};
+use crate::files::write_whole;
+use crate::output::{csv_field, write_json};
 
 /// Reference of every measure.
 pub type Limits = IndexMap<String, Limit>;
@@ -66,6 +68,25 @@ fn error(plan: &StudyPlan, limits: &Limits, outcome: &PointOutcome, measure: &st
     };
     // a point that failed is infinitely wrong
     Some(if outcome.done() && error.is_finite() { error } else { f64::INFINITY })
+}
+
+/// Refuses a folder in which other files stand where the tables go: a study of that name among them.
+pub(super) fn check_own(folder: &Path) -> Result<()> {
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).ok();
+    let is_table = |text: String| {
+        serde_json::from_str::<Value>(&text).is_ok_and(|value| value["program"] == env!("CARGO_PKG_NAME"))
+    };
+    let foreign = [
+        ("study.json", text("study.json").is_some_and(|text| !is_table(text))),
+        ("study.csv", text("study.csv").is_some_and(|text| !text.starts_with("point,"))),
+    ];
+    match foreign.into_iter().find(|(_, foreign)| *foreign) {
+        Some((name, _)) => {
+            let what = format!("{name} is in the way: it is no table of results");
+            Err(Error::folder(folder, what, "choose another folder with -o"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Writes both files.

@@ -39,12 +39,14 @@ pub struct Means {
     pub cache: Option<Arc<SubdomainCache>>,
     /// A request to stop, looked at between parts.
     pub stop: Stop,
+    /// The form that an interrupted run had, where the scene leaves the choice.
+    pub method: Option<Method>,
 }
 
 impl Default for Means {
     /// All memory there is, nothing shared.
     fn default() -> Means {
-        Means { memory: memory::available(), cache: None, stop: Stop::default() }
+        Means { memory: memory::available(), cache: None, stop: Stop::default(), method: None }
     }
 }
 
@@ -80,7 +82,7 @@ enum Matrices {
 impl<'a> Equations<'a> {
     /// Assembles what the scene's strategy asks for, within the means.
     pub fn new(problem: &'a Problem, means: Means, clock: &mut Clock) -> Result<Equations<'a>> {
-        let Means { memory: available, cache, stop } = means;
+        let Means { memory: available, cache, stop, method: before } = means;
         clock.begin("assemble");
         let (model, strategy) = (&problem.model, problem.solution.strategy);
         let dofs = model.dofs();
@@ -119,7 +121,7 @@ impl<'a> Equations<'a> {
         let mut operations = None;
         if strategy != Strategy::Plain {
             let continuum = Continuum::new(model, cache).map_err(too_large)?;
-            let (method, estimate) = choose(problem, &continuum, &condensed_interfaces, available)?;
+            let (method, estimate) = choose(problem, &continuum, &condensed_interfaces, (available, before))?;
             operations = Some(estimate).filter(|_| !linear);
             let factor_entries = continuum.entries();
             if method != Method::Plain {

@@ -55,12 +55,12 @@ pub(in crate::history) fn condensed_interfaces(problem: &Problem) -> Vec<usize> 
 }
 
 /// Chooses the form: as asked for, or the one with the least work that fits into memory. Stiff elastic interfaces need their jumps
-/// as unknowns.
+/// as unknowns. What an interrupted run chose `before` stands.
 pub(in crate::history) fn choose(
     problem: &Problem,
     continuum: &Continuum,
     condensed_interfaces: &[usize],
-    available: Option<u64>,
+    (available, before): (Option<u64>, Option<Method>),
 ) -> Result<(Method, Operations)> {
     let (model, dofs) = (&problem.model, problem.model.dofs());
     let separator = continuum.separator() as f64;
@@ -95,6 +95,7 @@ pub(in crate::history) fn choose(
     let fits = available.is_none_or(|available| needed <= available);
     let method = match problem.solution.strategy {
         Strategy::Auto if condensed_interfaces.is_empty() || problem.flows() => Method::Condensed,
+        Strategy::Auto if before.is_some() => before.unwrap_or_default(),
         Strategy::Auto => {
             let stiff = condensed_interfaces.iter().any(|&k| problem.interfaces[k].stiff);
             let condensed = if fits { estimate.condensed } else { f64::INFINITY };

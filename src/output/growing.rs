@@ -1,0 +1,196 @@
+//! A text that grows by whole lines and is whole at every moment, whoever looks and whatever ends the program.
+//!
+//! ```text
+//! file      rows up to k              ──► lacks k + 1, hidden
+//! hidden    rows up to k − 1, + k, + k + 1  ──► file
+//! ```
+//!
+//! An addition goes to the hidden copy, which lacks the one before as well; then both exchange their names. So every byte is
+//! written twice, however long the text is.
+
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use crc32fast::Hasher;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::files::{HIDDEN, write_whole};
+
+/// Length of a text without its end [bytes], and its CRC-32.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TextLength {
+    bytes: u64,
+    checksum: u32,
+}
+
+impl TextLength {
+    /// Of a text of so many bytes that were hashed.
+    pub(super) fn new(bytes: u64, hasher: Hasher) -> TextLength {
+        TextLength { bytes, checksum: hasher.finalize() }
+    }
+}
+
+/// A text that grows.
+#[derive(Debug)]
+pub(super) struct Growing {
+    path: PathBuf,
+    /// The end that every state of the text has, such as closing tags.
+    end: &'static str,
+    /// Bytes without the end.
+    bytes: u64,
+    hasher: Hasher,
+    file: File,
+    /// The copy, once something was added, and the text that it lacks.
+    hidden: Option<File>,
+    lacks: String,
+}
+
+impl Growing {
+    /// Writes the first state of a text.
+    pub(super) fn create(path: &Path, text: &str, end: &'static str) -> Result<Growing> {
+        write_whole(path, format!("{text}{end}").as_bytes())?;
+        let file = open(path)?;
+        let mut hasher = Hasher::new();
+        hasher.update(text.as_bytes());
+        let (bytes, lacks) = (text.len() as u64, String::new());
+        Ok(Growing { path: path.into(), end, bytes, hasher, file, hidden: None, lacks })
+    }
+
+    /// Goes back to a length that the text has had.
+    pub(super) fn reopen(path: &Path, length: TextLength, end: &'static str) -> Result<Growing> {
+        let text = beginning(path, length)?.unwrap_or_default();
+        Growing::create(path, &text, end)
+    }
+
+    /// Adds whole lines.
+    pub(super) fn add(&mut self, text: &str) -> Result<()> {
+        let written = self.exchange(text).map_err(Error::io("write", &self.path));
+        if written.is_err() {
+            self.forget();
+        }
+        written
+    }
+
+    fn exchange(&mut self, text: &str) -> std::io::Result<()> {
+        let [hidden, spare] = self.hidden_paths();
+        let mut copy = match self.hidden.take() {
+            Some(copy) => copy,
+            None => {
+                std::fs::copy(&self.path, &hidden)?;
+                File::options().read(true).write(true).open(&hidden)?
+            }
+        };
+        let start = self.bytes - self.lacks.len() as u64;
+        copy.seek(SeekFrom::Start(start))?;
+        copy.write_all(format!("{}{text}{}", self.lacks, self.end).as_bytes())?;
+        // where there are no links the next addition copies it anew
+        let linked = std::fs::hard_link(&self.path, &spare).is_ok();
+        std::fs::rename(&hidden, &self.path)?;
+        let before = std::mem::replace(&mut self.file, copy);
+        self.lacks = String::new();
+        if linked {
+            std::fs::rename(&spare, &hidden)?;
+            self.hidden = Some(before);
+            self.lacks = text.into();
+        }
+        self.bytes += text.len() as u64;
+        self.hasher.update(text.as_bytes());
+        Ok(())
+    }
+
+    /// Its length so far.
+    pub(super) fn length(&self) -> TextLength {
+        TextLength::new(self.bytes, self.hasher.clone())
+    }
+
+    /// The same file in another folder, into which it is about to be moved.
+    pub(super) fn moves_to(&mut self, folder: &Path) {
+        self.forget();
+        if let Some(name) = self.path.file_name() {
+            self.path = folder.join(name);
+        }
+    }
+
+    fn hidden_paths(&self) -> [PathBuf; 2] {
+        let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        ["copy", "spare"].map(|which| self.path.with_file_name(format!("{HIDDEN}{which}-{name}")))
+    }
+
+    /// Removes the copy.
+    fn forget(&mut self) {
+        (self.hidden, self.lacks) = (None, String::new());
+        // what resists is removed by the next run
+        self.hidden_paths().into_iter().for_each(|path| drop(std::fs::remove_file(path)));
+    }
+}
+
+impl Drop for Growing {
+    fn drop(&mut self) {
+        self.forget();
+    }
+}
+
+/// The beginning of a file, if it is there as it was written.
+pub(super) fn beginning(path: &Path, TextLength { bytes, checksum }: TextLength) -> Result<Option<String>> {
+    let mut text = Vec::new();
+    match File::open(path).and_then(|file| file.take(bytes).read_to_end(&mut text)) {
+        Ok(_) => {}
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(Error::io("read", path)(error)),
+    }
+    let same = text.len() as u64 == bytes && crc32fast::hash(&text) == checksum;
+    Ok(String::from_utf8(text).ok().filter(|_| same))
+}
+
+fn open(path: &Path) -> Result<File> {
+    File::options().read(true).write(true).open(path).map_err(Error::io("write", path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    #[test]
+    fn a_text_is_whole_whenever_it_is_looked_at() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("history.csv");
+        let row = |k: usize| format!("{k:08},{}\n", "x".repeat(150 + k % 40));
+        let mut text = Growing::create(&path, "head\n", "end\n").unwrap();
+        let (done, path_read) = (AtomicBool::new(false), path.clone());
+        let looks = std::thread::scope(|scope| {
+            let looks = scope.spawn(|| {
+                let mut looks = 0;
+                while !done.load(Ordering::Relaxed) {
+                    let seen = std::fs::read_to_string(&path_read).unwrap();
+                    let lines: Vec<&str> = seen.lines().collect();
+                    assert!(seen.ends_with("\nend\n") && lines[0] == "head", "{}", lines.len());
+                    for (k, line) in lines[1..lines.len() - 1].iter().enumerate() {
+                        assert_eq!(format!("{line}\n"), row(k));
+                    }
+                    looks += 1;
+                }
+                looks
+            });
+            (0..4000).for_each(|k| text.add(&row(k)).unwrap());
+            done.store(true, Ordering::Relaxed);
+            looks.join().unwrap()
+        });
+        assert!(looks > 10, "{looks} looks");
+        let length = text.length();
+        text.add("more\n").unwrap();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "the file and its copy");
+        drop(text);
+        let mut text = Growing::reopen(&path, length, "end\n").unwrap();
+        text.add("other\n").unwrap();
+        text.add("third\n").unwrap();
+        drop(text);
+        let all: String = (0..4000).map(row).collect();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), format!("head\n{all}other\nthird\nend\n"));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        std::fs::write(&path, "HEAD\n").unwrap();
+        assert_eq!(beginning(&path, length).unwrap(), None);
+    }
+}
