@@ -36,13 +36,13 @@ fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
     let folder = squares();
     let checks = folder.path().join("out/check");
     assert!(midplane(folder.path(), &["check", ".", "-o", "out", "--plot"]).status.success());
-    std::fs::rename(checks.join("joint.vtu"), checks.join("old.vtu")).unwrap(); // as of another scene
+    std::fs::rename(checks.join("joint.vtu"), checks.join("mine.vtu")).unwrap(); // nobody else's to remove
     let output = midplane(folder.path(), &["check", ".", "-o", "out", "--plot"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let mut names: Vec<_> =
         std::fs::read_dir(&checks).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["joint.vtu", "lower.vtu", "upper.vtu"]);
+    assert_eq!(names, ["joint.vtu", "lower.vtu", "manifest", "mine.vtu", "upper.vtu"]);
     let bytes = std::fs::read(checks.join("joint.vtu")).unwrap();
     let head = String::from_utf8_lossy(&bytes);
     let (edges, segments, cells, law_points) = (3 + 5, 7, 3, 2 * 3);

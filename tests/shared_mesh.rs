@@ -131,7 +131,7 @@ fn a_conforming_mesh_opens_into_a_matched_interface_and_is_meshed_once() {
         assert!(output.status.success(), "{err}");
         assert!(err.is_empty(), "{err}");
         assert_eq!((out.matches("meshed ").count(), out.matches("blocks ").count()), (1, 1), "{out}");
-        assert_eq!(std::fs::read_dir(folder.path().join("out/mesh")).unwrap().count(), 1);
+        assert_eq!(std::fs::read_dir(folder.path().join("out/mesh")).unwrap().count(), 2, "and its checksum");
         assert!(out.contains("4:4 edges, 4 segments"), "{out}");
         let history = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
         let row: Vec<f64> =

@@ -94,6 +94,10 @@ impl Show {
                     self.line(&format!("{:<8} {:<12} {why}", "", "not later:"));
                 }
             }
+            Event::Replaces(scene) => {
+                self.printer
+                    .error(&format!("note: takes the place of the results of another scene, {scene}"));
+            }
             Event::Left(folder) => {
                 self.printer
                     .error(&format!("note: the results of an earlier run in {} stay", folder.display()));

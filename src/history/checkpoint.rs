@@ -59,7 +59,8 @@ impl<'a> History<'a> {
         clock: Clock,
         checkpoint: Checkpoint,
     ) -> Result<History<'a>> {
-        let Checkpoint { position, mut state, totals, search, before } = checkpoint;
+        let Checkpoint { position, mut state, mut totals, search, before } = checkpoint;
+        totals.operations = equations.operations; // steps to come may be others
         state.snapshot.stresses = state.stresses(problem);
         let (engine, stop) = (equations.engine(), equations.stop.clone());
         let mut analysis = Analysis { problem, engine, state, totals, clock, stop };

@@ -115,7 +115,7 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
 }
 
 /// The file beside a mesh that holds its SHA-256, as `sha256sum -c` reads it.
-pub fn sum_file(mesh: &Path) -> PathBuf {
+fn sum_file(mesh: &Path) -> PathBuf {
     mesh.with_extension("msh.sha256")
 }
 

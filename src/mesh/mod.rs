@@ -29,7 +29,7 @@ use std::path::PathBuf;
 
 use indexmap::IndexMap;
 
-pub use cache::{Job, Meshed, digest, mesh_all, parameters, sum_file};
+pub use cache::{Job, Meshed, digest, mesh_all, parameters};
 pub use gmsh::Gmsh;
 pub use open::Branch;
 pub use pieces::Pieces;

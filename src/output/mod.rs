@@ -14,7 +14,7 @@ mod writer;
 pub use files::{csv_field, write_json};
 pub use geometry::write_geometry;
 pub use manifest::{Listing, MANIFEST, check_free};
-pub use writer::{HistoryRow, Lengths, Writer, collection, files_once};
+pub use writer::{HistoryRow, TextLengths, Writer, collection, files_once};
 
 use serde::{Deserialize, Serialize};
 

@@ -31,18 +31,18 @@ pub struct Writer {
     head: String,
 }
 
-/// Lengths that the growing files had at some row.
+/// TextLengths that the growing files had at some row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Lengths {
+pub struct TextLengths {
     manifest: TextLength,
     history: Option<TextLength>,
     collection: Option<TextLength>,
 }
 
-impl Lengths {
+impl TextLengths {
     /// Without the fields that came after others.
-    pub fn without_fields_since(self, before: &Lengths) -> Lengths {
-        Lengths { history: self.history, ..*before }
+    pub fn without_fields_since(self, before: &TextLengths) -> TextLengths {
+        TextLengths { history: self.history, ..*before }
     }
 }
 
@@ -87,7 +87,7 @@ impl Writer {
     }
 
     /// True if the files of a folder begin as they were at these lengths.
-    pub fn is_continued(folder: &Path, name: &str, lengths: &Lengths) -> Result<bool> {
+    pub fn is_continued(folder: &Path, name: &str, lengths: &TextLengths) -> Result<bool> {
         let texts = [
             (folder.join(MANIFEST), Some(lengths.manifest)),
             (folder.join(HISTORY), lengths.history),
@@ -104,7 +104,7 @@ impl Writer {
     }
 
     /// Goes back to lengths that the files have had; what was written later is removed.
-    pub fn reopen(folder: &Path, name: &str, columns: &[String], lengths: &Lengths) -> Result<Writer> {
+    pub fn reopen(folder: &Path, name: &str, columns: &[String], lengths: &TextLengths) -> Result<Writer> {
         let at = |file: &str, length: Option<TextLength>, end| {
             let path = folder.join(file);
             length.map(|length| Growing::reopen(&path, length, end)).transpose()
@@ -116,9 +116,9 @@ impl Writer {
         Ok(Writer { folder, name, manifest, history, collection, head })
     }
 
-    /// Lengths of the growing files so far.
-    pub fn lengths(&self) -> Lengths {
-        Lengths {
+    /// TextLengths of the growing files so far.
+    pub fn lengths(&self) -> TextLengths {
+        TextLengths {
             manifest: self.manifest.length(),
             history: self.history.as_ref().map(Growing::length),
             collection: self.collection.as_ref().map(Growing::length),

@@ -13,22 +13,14 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::identity::Identity;
+use super::places::{CheckpointPlace, FOLDER, LATEST};
 use super::results::ResultsState;
 use crate::error::{Error, Result};
 use crate::files::write_whole;
 use crate::history::Checkpoint;
 
-/// Folder of the checkpoints in that of the results.
-pub(super) const FOLDER: &str = "checkpoint";
-/// Name of the last of them.
-pub(super) const LATEST: &str = "checkpoint/latest";
 const HEAD: &str = "midplane checkpoint 1\n";
 const SUM: usize = size_of::<u32>();
-
-/// Name of the checkpoint at the end of a step, counted from 1.
-pub(super) fn of_step(step: usize) -> String {
-    format!("{FOLDER}/step_{step:04}")
-}
 
 /// Contents of a checkpoint that was read.
 #[derive(Debug, Deserialize)]
@@ -44,21 +36,11 @@ pub(super) struct Keeping<'a, H> {
     pub(super) history: H,
 }
 
-/// Place of a checkpoint in its history.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(super) struct Place {
-    /// Number of its increment over all steps.
-    pub(super) increment: usize,
-    /// Number of the step under way, from 0, and true if none of it has been done.
-    pub(super) step: usize,
-    pub(super) between: bool,
-}
-
 /// A checkpoint file.
 #[derive(Debug)]
 pub(super) struct Found {
     pub(super) path: PathBuf,
-    pub(super) place: Place,
+    pub(super) place: CheckpointPlace,
     pub(super) identity: Identity,
     state: Vec<u8>,
 }
@@ -72,7 +54,7 @@ impl Found {
 
 /// The text of a checkpoint, into a buffer that is used again; `identity`: that of the run, as JSON.
 pub(super) fn encode(
-    place: &Place,
+    place: &CheckpointPlace,
     identity: &[u8],
     state: &impl Serialize,
     into: &mut Vec<u8>,

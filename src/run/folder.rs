@@ -19,8 +19,6 @@ pub struct Folder {
     path: PathBuf,
     /// Folders that were made for it, from the outermost to the innermost.
     made: Vec<PathBuf>,
-    /// Files that were made in it before there were results.
-    files: Vec<PathBuf>,
     kept: bool,
     lock: Option<Lock>,
 }
@@ -44,7 +42,7 @@ impl Folder {
                     return Err(error);
                 }
             };
-            let folder = Folder { path: path.into(), made, files: Vec::new(), kept: false, lock: Some(lock) };
+            let folder = Folder { path: path.into(), made, kept: false, lock: Some(lock) };
             folder.clear_up()?;
             return Ok(folder);
         }
@@ -53,11 +51,6 @@ impl Folder {
     /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// A file that was made in it.
-    pub fn has_made(&mut self, file: &Path) {
-        self.files.push(file.into());
     }
 
     /// From here on what is written stays.
@@ -110,12 +103,12 @@ impl Drop for Folder {
     fn drop(&mut self) {
         let _ = std::fs::remove_dir_all(self.staged()); // what resists is removed by the next run
         if !self.kept {
-            let mut within: Vec<&Path> = self.files.iter().filter_map(|file| file.parent()).collect();
-            within.dedup();
-            if !self.made.is_empty() {
-                self.files.iter().for_each(|file| drop(std::fs::remove_file(file)));
-            }
-            within.into_iter().for_each(|below| drop(std::fs::remove_dir(below)));
+            let meshes = self.path.join("mesh");
+            // in a folder that was there they serve the next run
+            let _ = match self.made.is_empty() {
+                true => std::fs::remove_dir(meshes), // if there is none
+                false => std::fs::remove_dir_all(meshes),
+            };
         }
         self.lock = None; // another run may have it before the folder goes, and then it stays
         if !self.kept {

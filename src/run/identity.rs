@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
-use super::checkpoint::Place;
+use super::places::CheckpointPlace;
 use crate::error::Error;
 use crate::problem::Problem;
 use crate::scene::Scene;
@@ -49,7 +49,7 @@ impl Identity {
     }
 
     /// The difference from a run that wants to go on from a checkpoint at this place, if there is one.
-    pub(super) fn difference(&self, now: &Identity, place: &Place) -> Option<String> {
+    pub(super) fn difference(&self, now: &Identity, place: &CheckpointPlace) -> Option<String> {
         if self.version != now.version {
             return Some(format!("is of version {}, and this is {}", self.version, now.version));
         }
@@ -80,7 +80,7 @@ impl Identity {
 }
 
 /// A scene without the steps that may change: those after the checkpoint.
-fn before_next(scene: &Value, place: &Place) -> Value {
+fn before_next(scene: &Value, place: &CheckpointPlace) -> Value {
     let mut scene = scene.clone();
     if let Some(steps) = scene.get_mut("steps").and_then(Value::as_array_mut) {
         steps.truncate(place.step + usize::from(!place.between));

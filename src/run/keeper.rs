@@ -1,12 +1,13 @@
 //! When checkpoints are written: after so much time or so many increments, at the ends of steps, and when a run ends early.
 //!
-//! The state after every increment is kept in memory, so that a run that ends in the middle of the next one can write it. All this
-//! takes a small part of the time at most, whatever the size of the model.
+//! The state after an increment is kept in memory, so that a run that ends in the middle of the next one can write it: after every
+//! increment, or as often as a small part of the time allows.
 
 use std::time::{Duration, Instant};
 
-use super::checkpoint::{self, Keeping, LATEST, Place, of_step};
+use super::checkpoint::{self, Keeping};
 use super::identity::Identity;
+use super::places::{CheckpointPlace, LATEST, of_step};
 use super::results::Results;
 use crate::error::{Error, Result};
 use crate::history::{History, Increment};
@@ -26,7 +27,7 @@ pub enum Every {
 
 /// States are kept as long as that has taken this share of the time, and always as long as it has taken less than this [s].
 const SHARE: f64 = 0.01;
-const LITTLE: f64 = 0.05;
+const LITTLE: f64 = 0.002;
 
 /// Keeps the state of a run.
 #[derive(Debug)]
@@ -39,7 +40,7 @@ pub(super) struct Keeper {
     steps: usize,
     /// The state after the last increment; empty if it is on disk.
     held: Vec<u8>,
-    place: Place,
+    place: CheckpointPlace,
     spent: Duration,
     last: (Instant, usize),
 }
@@ -55,7 +56,7 @@ impl Keeper {
         let all_steps = matches!(problem.fields, Fields::Every | Fields::Step);
         let identity = serde_json::to_vec(identity);
         let identity = identity.map_err(|error| Error::io("write", LATEST)(std::io::Error::other(error)))?;
-        let place = Place { increment, step: 0, between: true };
+        let place = CheckpointPlace { increment, step: 0, between: true };
         let (steps, held, spent) = (problem.steps.len(), Vec::new(), Duration::ZERO);
         let last = (Instant::now(), increment);
         Ok(Keeper { every, identity, all_steps, steps, held, place, spent, last })
@@ -72,7 +73,6 @@ impl Keeper {
         let known = history.place().filter(|_| self.every != Every::Never && increment.increment > 0);
         // a run that has come to its end leaves the state before
         let Some((step, between)) = known else { return Ok(()) };
-        self.held.clear();
         let now = Instant::now();
         let due = match self.every {
             Every::Seconds(seconds) => (now - self.last.0).as_secs_f64() >= seconds,
@@ -82,13 +82,13 @@ impl Keeper {
         let cheap = self.spent.as_secs_f64() <= LITTLE + SHARE * history.clock().total();
         let ends = between && (cheap || step == self.steps);
         if !(due || ends || stops || cheap) {
-            return Ok(());
+            return Ok(()); // the state before that was kept will do
         }
         let name = if between { of_step(step) } else { LATEST.into() };
         if ends {
             results.list(&name)?;
         }
-        self.place = Place { increment: increment.increment, step, between };
+        self.place = CheckpointPlace { increment: increment.increment, step, between };
         let keeping = Keeping { results: &results.state(), history: history.checkpoint() };
         checkpoint::encode(&self.place, &self.identity, &keeping, &mut self.held)?;
         if due || ends {

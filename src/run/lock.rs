@@ -4,10 +4,13 @@
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 use crate::files::HIDDEN;
+
+/// A run that was killed holds its lock until the system has cleared it away.
+const GRACE: Duration = Duration::from_millis(500);
 
 /// A lock; given back when dropped.
 #[derive(Debug)]
@@ -28,7 +31,7 @@ impl Lock {
                 Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
                 Err(error) => return Err(Error::io("write to", folder)(error)),
             };
-            match file.try_lock() {
+            match within(GRACE, || file.try_lock()) {
                 Err(TryLockError::WouldBlock) => {
                     let help = "wait for its end, or choose another folder with -o";
                     return Err(Error::folder(folder, holder(&mut file), help));
@@ -52,6 +55,17 @@ impl Drop for Lock {
         // before it is let go, so that nobody has taken it yet; one that stays is taken by the next run
         if is_still(&self.file, &self.path) {
             let _ = std::fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Tries again for a time.
+fn within<E>(time: Duration, attempt: impl Fn() -> std::result::Result<(), E>) -> std::result::Result<(), E> {
+    let begun = Instant::now();
+    loop {
+        match attempt() {
+            Err(_) if begun.elapsed() < time => std::thread::sleep(Duration::from_millis(10)),
+            ended => return ended,
         }
     }
 }
@@ -90,16 +104,8 @@ fn host() -> String {
 
 fn holder(file: &mut File) -> String {
     let mut text = String::new();
-    // a lock that was just taken has no text yet
-    for _ in 0..20 {
-        let _ = file.rewind().and_then(|()| file.read_to_string(&mut text));
-        if text.ends_with('\n') {
-            return format!("another run is at work there, {}", text.trim());
-        }
-        text.clear();
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    "another run is at work there".into()
+    let _ = file.rewind().and_then(|()| file.read_to_string(&mut text)); // told without, if it cannot be read
+    format!("another run is at work there, {}", text.trim()).trim_end_matches(", ").into()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod folder;
 mod identity;
 mod keeper;
 mod lock;
+mod places;
 pub mod point;
 mod prepare;
 mod presets;
@@ -103,6 +104,8 @@ pub enum Event<'a> {
     Reused(&'a str),
     /// The run goes on from a checkpoint, or begins although it was to go on.
     Resumed(&'a Resumed),
+    /// The results of another scene in the folder go when the first row of this one is complete.
+    Replaces(&'a str),
     /// A run that failed has left the results of an earlier one in their folder.
     Left(&'a Path),
 }
@@ -168,6 +171,9 @@ fn attempt(
         prepare::prepare_sharing(options, shared, listen)?;
     let path = folder.path().to_path_buf();
     let mut results = Results::new(&scene, &name, &problem, folder)?;
+    if let Some(other) = &results.other {
+        listen(Event::Replaces(other));
+    }
     let identity = identity::Identity::new(&scene, &problem);
     let resumed = if options.resume { resume::find(&mut results, &identity, listen)? } else { None };
     let method = resumed.as_ref().map(|checkpoint| checkpoint.method());

@@ -75,16 +75,16 @@ pub(super) fn prepare_sharing(
     Ok(Prepared { scene, name, problem, folder, clock })
 }
 
+/// The folder of the results of a scene of this name.
+fn results_folder(options: &Options, name: &str) -> PathBuf {
+    options.out.clone().unwrap_or_else(|| Path::new("results").join(name))
+}
+
 /// The folder of a run, if it holds the results of an earlier one.
 pub(super) fn earlier_results(options: &Options) -> Option<PathBuf> {
-    let folder = match &options.out {
-        Some(folder) => folder.clone(),
-        None => {
-            let file = &options.scene;
-            let file = if file.is_dir() { file.join("scene.json") } else { file.clone() };
-            Path::new("results").join(scene_name(&file))
-        }
-    };
+    let file = &options.scene;
+    let file = if file.is_dir() { file.join("scene.json") } else { file.clone() };
+    let folder = results_folder(options, &scene_name(&file));
     Listing::read(&folder).ok().flatten().map(|_| folder)
 }
 
@@ -112,11 +112,11 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     listen(Event::Began(clock.now()));
     let scene = read_scene(&options.scene, &options.settings)?;
     let name = scene_name(&scene.source.file);
-    let out = options.out.clone().unwrap_or_else(|| Path::new("results").join(&name));
+    let out = results_folder(options, &name);
     clock.begin("mesh");
     let (files, file_of) = files(&scene)?;
     let jobs: Vec<Job> = files.iter().filter_map(Origin::job).cloned().collect();
-    let mut folder = Folder::open(&out)?;
+    let folder = Folder::open(&out)?;
     let meshed = match shared {
         Some(shared) => shared.mesh_all(&jobs)?,
         None => {
@@ -126,10 +126,6 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     };
     for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {
         listen(Event::Meshed { name: &job.name, path, reused: *reused });
-        if !reused && shared.is_none() {
-            folder.has_made(path);
-            folder.has_made(&mesh::sum_file(path));
-        }
     }
     let mut made = meshed.into_iter().map(|meshed| meshed.path);
     let files = files.into_iter().filter_map(|file| match file {

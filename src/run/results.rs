@@ -4,12 +4,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::checkpoint::LATEST;
 use super::folder::Folder;
+use super::places::LATEST;
 use super::summary::{self, Balance};
 use crate::error::{Error, Result};
 use crate::history::{Clock, Increment, ModelState, Totals};
-use crate::output::{HistoryRow, Lengths, Listing, RowData, Writer, check_free, files_once};
+use crate::output::{HistoryRow, Listing, RowData, TextLengths, Writer, check_free, files_once};
 use crate::problem::Problem;
 use crate::scene::{Fields, Scene};
 
@@ -23,25 +23,27 @@ pub(super) struct Results<'a> {
     writer: Option<Writer>,
     /// True if the folder has results of an earlier run, whose place is still to be taken.
     earlier: bool,
+    /// Name of their scene, if it is another.
+    pub(super) other: Option<String>,
     state: ResultsState,
     /// Loads and reactions at the last increment whose displacements are known.
     balance: Option<Balance>,
     /// The counts up to the last increment.
     pub(super) totals: Totals,
     /// The checkpoint that the run goes on from.
-    from: Option<(Lengths, String)>,
+    from: Option<(TextLengths, String)>,
 }
 
 /// What there is so far: part of a checkpoint.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct ResultsState {
-    lengths: Option<Lengths>,
+    lengths: Option<TextLengths>,
     /// Number of the last increment whose fields are stored; none before the first.
     stored: Option<usize>,
     /// Rows of the history, that of the unloaded state among them, and states whose fields are stored.
     rows: [usize; 2],
     /// The same before the fields of the last increment of all, which are not stored if it is not the last of all.
-    before_last: Option<(Lengths, Option<usize>, usize)>,
+    before_last: Option<(TextLengths, Option<usize>, usize)>,
     /// The balance of loads and reactions, as JSON.
     balance: Option<String>,
     /// Increments after which the run was gone on with.
@@ -57,17 +59,14 @@ impl<'a> Results<'a> {
         folder: Folder,
     ) -> Result<Results<'a>> {
         let earlier = Listing::read(folder.path())?;
-        if let Some(Listing { scene, .. }) = earlier.as_ref().filter(|earlier| earlier.scene != name) {
-            let what = format!("it holds the results of another scene, {scene}");
-            return Err(Error::folder(folder.path(), what, "remove them, or choose another folder with -o"));
-        }
         let names = problem.model.subdomains.iter().map(|part| part.name.clone());
         let names: Vec<String> =
             names.chain(problem.model.interfaces.iter().map(|i| i.name.clone())).collect();
         check_free(folder.path(), earlier.as_ref(), &files_once(name, &problem.model), &names)?;
+        let other = earlier.as_ref().map(|earlier| earlier.scene.clone()).filter(|scene| scene != name);
         let (earlier, state, totals) = (earlier.is_some(), ResultsState::default(), Totals::default());
         let (writer, balance, from) = (None, None, None);
-        Ok(Results { scene, name, problem, folder, writer, earlier, state, balance, totals, from })
+        Ok(Results { scene, name, problem, folder, writer, earlier, other, state, balance, totals, from })
     }
 
     /// True if the files of the folder begin with the rows of a checkpoint.

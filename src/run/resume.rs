@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::checkpoint::{FOLDER, Kept, read_all};
+use super::checkpoint::{Kept, read_all};
 use super::identity::Identity;
+use super::places::FOLDER;
 use super::results::Results;
 use super::{Event, Listener, Resumed};
 use crate::error::{Error, Result};

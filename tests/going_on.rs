@@ -1,0 +1,252 @@
+//! Claim: a run that was killed, stopped or ended without an equilibrium goes on with `--resume` and leaves the files of one that
+//! was not interrupted, byte by byte; a checkpoint of another scene or mesh is refused with what differs.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use crate::common::squares::{SCENE, changed, midplane, structured, write};
+
+/// Two squares that a crack parts, pressed, sheared along a path, and let go.
+const STEPS: &str = r#""steps": [
+    { "name": "press", "increments": 2, "fix": { "lower.bottom": ["x", "y"] }, "load": { "upper.top": { "pressure": 2.0 } } },
+    { "name": "shear", "increments": 8, "displace": { "upper.top": { "x": 2e-3 } } },
+    { "name": "back", "increments": 3, "displace": { "upper.top": { "x": 0 } } }"#;
+
+fn cracking(fields: &str, control: &str) -> String {
+    let law = r#""cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,
+        "fracture_energy_i": 2e-3, "fracture_energy_iia": 2e-2, "dilatancy_stress": 0"#;
+    let start = SCENE.find("\"steps\"").unwrap();
+    let end = SCENE.find("\"output\"").unwrap();
+    let steps = STEPS.replace("\"increments\": 8", &format!("\"increments\": 8, \"control\": \"{control}\""));
+    let scene = format!("{}{steps} ],\n  {}", &SCENE[..start], &SCENE[end..]);
+    let scene = changed(&scene, "\"output\": {", &format!("\"output\": {{ \"fields\": \"{fields}\","));
+    let scene = changed(&scene, "1e7, \"tangential_stiffness\": 1e7", "1e6, \"tangential_stiffness\": 1e6");
+    changed(&scene, "\"elastic\"", law)
+}
+
+fn squares(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &structured(3), &structured(5), scene);
+    folder
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn run(folder: &Path, out: &str, more: &[&str]) -> Output {
+    midplane(folder, &[&["run", "scene.json", "-o", out], more].concat())
+}
+
+/// The files of a run but for its checkpoints, with their bytes; of the summary what is not of the process.
+fn contents(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut open = vec![out.to_path_buf()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.strip_prefix(out).unwrap().to_path_buf();
+            if path.is_dir() {
+                open.push(path);
+            } else if name.starts_with("checkpoint") {
+                found.insert(name, Vec::new());
+            } else if name == Path::new("summary.json") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let mut summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+                for key in ["time", "peak_memory_bytes", "resumed"] {
+                    summary.as_object_mut().unwrap().remove(key).unwrap();
+                }
+                found.insert(name, summary.to_string().into_bytes());
+            } else {
+                found.insert(name, std::fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+#[track_caller]
+fn same(a: &Path, b: &Path) {
+    let (a, b) = (contents(a), contents(b));
+    assert_eq!(a.keys().collect::<Vec<_>>(), b.keys().collect::<Vec<_>>());
+    for (name, bytes) in a {
+        assert!(bytes == b[&name], "{}", name.display());
+    }
+}
+
+/// Goes through the first increments in a process of its own and kills it when there are so many rows.
+fn killed(folder: &Path, out: &str, rows: usize, more: &[&str]) {
+    let history = folder.join(out).join("history.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
+    command.current_dir(folder).args(["run", "scene.json", "-o", out]).args(more);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let begun = std::time::Instant::now();
+    while std::fs::read_to_string(&history).map_or(0, |text| text.lines().count()) <= rows {
+        assert!(begun.elapsed().as_secs() < 60, "no rows");
+        if child.try_wait().unwrap().is_some() {
+            return; // it was faster
+        }
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+#[test]
+fn a_killed_run_goes_on() {
+    for (fields, control) in [("every", "load"), ("step", "auto"), ("last", "load"), ("none", "auto")] {
+        let folder = squares(&cracking(fields, control));
+        assert!(run(folder.path(), "alone", &[]).status.success());
+        for (often, rows) in [("1", 2), ("1", 9), ("2", 5), ("60s", 4), ("never", 6)] {
+            let out = format!("out_{often}_{rows}");
+            killed(folder.path(), &out, rows, &["--checkpoint", often]);
+            let output = run(folder.path(), &out, &["--resume"]);
+            assert!(output.status.success(), "{fields} {often}: {}", said(&output));
+            same(&folder.path().join("alone"), &folder.path().join(&out));
+            // once more there is nothing to do
+            assert!(run(folder.path(), &out, &["--resume"]).status.success());
+            same(&folder.path().join("alone"), &folder.path().join(&out));
+        }
+    }
+}
+
+#[test]
+fn a_run_goes_on_with_more_steps_and_with_other_steps_to_come() {
+    for fields in ["every", "step", "last", "none"] {
+        let scene = cracking(fields, "load");
+        let more = changed(
+            &scene,
+            "{ \"x\": 0 } } }",
+            "{ \"x\": 0 } } }, { \"name\": \"more\", \"increments\": 4, \"displace\": { \"upper.top\": { \"x\": -1e-3 } } }",
+        );
+        // a part of the scene that was done stays, the last step is another
+        let other = changed(&scene, "\"increments\": 3", "\"increments\": 5");
+        let shorter = format!(
+            "{}{}",
+            &scene[..scene.find(",\n    { \"name\": \"back\"").unwrap()],
+            &scene[scene.find(" ],\n  \"output\"").unwrap()..]
+        );
+        for (name, changed, after) in [("more", &more, 13), ("other", &other, 10), ("shorter", &shorter, 10)]
+        {
+            let folder = squares(&scene);
+            assert!(run(folder.path(), "out", &[]).status.success());
+            std::fs::write(folder.path().join("scene.json"), changed).unwrap();
+            let output = run(folder.path(), "out", &["--resume"]);
+            assert!(output.status.success(), "{fields} {name}: {}", said(&output));
+            let told = String::from_utf8_lossy(&output.stdout).into_owned();
+            assert!(told.contains(&format!("goes on after increment {after}")), "{fields} {name}: {told}");
+            assert!(run(folder.path(), "alone", &[]).status.success());
+            same(&folder.path().join("alone"), &folder.path().join("out"));
+        }
+    }
+}
+
+#[test]
+fn a_run_without_an_equilibrium_goes_on_when_its_step_is_another() {
+    // friction carries 2.5 in shear; the second step asks for more
+    let scene = changed(SCENE, "\"elastic\"", "\"coulomb\", \"friction_coefficient\": 0.25");
+    let scene = changed(
+        &scene,
+        "\"lower.bottom\": [\"y\"], \"lower.corner\": [\"x\"]",
+        "\"lower.bottom\": [\"x\", \"y\"]",
+    );
+    let scene = changed(
+        &scene,
+        "{ \"pressure\": 10.0 } }\n  }",
+        "{ \"pressure\": 10.0 } }\n  }, { \"name\": \"push\", \"increments\": 4, \"load\": { \"upper.top\": { \"traction\": [5, -10] } } }",
+    );
+    let folder = squares(&scene);
+    let failed = run(folder.path(), "out", &[]);
+    assert_eq!(failed.status.code(), Some(3), "{}", said(&failed));
+    let first = contents(&folder.path().join("out"));
+    let again = run(folder.path(), "out", &["--resume"]);
+    assert_eq!(again.status.code(), Some(3), "{}", said(&again));
+    assert_eq!(said(&failed), said(&again));
+    assert_eq!(first, contents(&folder.path().join("out")));
+    std::fs::write(folder.path().join("scene.json"), changed(&scene, "[5, -10]", "[2, -10]")).unwrap();
+    let output = run(folder.path(), "out", &["--resume"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(told.contains("goes on after increment 1\n"), "{told}");
+    assert!(told.contains("not later:   out/checkpoint/latest: is of another scene: steps.1.load"), "{told}");
+    assert!(run(folder.path(), "alone", &[]).status.success());
+    same(&folder.path().join("alone"), &folder.path().join("out"));
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_or_mesh_is_refused_with_what_differs() {
+    let scene = cracking("every", "load");
+    let folder = squares(&scene);
+    killed(folder.path(), "out", 6, &["--checkpoint", "1"]);
+    let before = contents(&folder.path().join("out"));
+    let refused = |told: &str| {
+        let output = run(folder.path(), "out", &["--resume"]);
+        assert_eq!(output.status.code(), Some(2), "{told}: {}", said(&output));
+        assert!(said(&output).contains(told), "{told}: {}", said(&output));
+        assert!(said(&output).contains("or run without --resume to begin anew"), "{}", said(&output));
+        let mut after = contents(&folder.path().join("out"));
+        after.retain(|name, _| before.contains_key(name)); // new meshes may be there
+        let is_hidden = |name: &Path| name.file_name().unwrap().to_string_lossy().starts_with('.');
+        let before: BTreeMap<_, _> =
+            before.clone().into_iter().filter(|(name, _)| !is_hidden(name)).collect();
+        assert!(after == before, "something was taken away");
+    };
+    for (from, to, told) in [
+        (
+            "\"young\": 1e4",
+            "\"young\": 2e4",
+            "another scene: materials.rock.young is 20000.0, it was 10000.0",
+        ),
+        ("\"increments\": 2", "\"increments\": 3", "another scene: steps.0.increments is 3, it was 2"),
+        ("\"cohesion\": 4", "\"cohesion\": 5", "interfaces.joint.law.cohesion is 5.0, it was 4.0"),
+        ("\"top\": \"upper", "\"other\": \"upper", "output.history.top is not there"),
+    ] {
+        std::fs::write(folder.path().join("scene.json"), changed(&scene, from, to)).unwrap();
+        refused(told);
+    }
+    std::fs::write(folder.path().join("scene.json"), &scene).unwrap();
+    let geo = std::fs::read_to_string(folder.path().join("upper.geo")).unwrap();
+    std::fs::write(folder.path().join("upper.geo"), changed(&geo, "n = {5", "n = {6")).unwrap();
+    refused("is of another mesh of upper");
+    std::fs::write(folder.path().join("upper.geo"), geo).unwrap();
+    // rows that somebody has changed, and checkpoints that are damaged
+    let history = folder.path().join("out/history.csv");
+    let rows = std::fs::read_to_string(&history).unwrap();
+    std::fs::write(&history, rows.replacen("press", "PRESS", 1)).unwrap();
+    let output = run(folder.path(), "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("is of other rows than those beside it"), "{}", said(&output));
+    std::fs::write(&history, rows).unwrap();
+    for entry in std::fs::read_dir(folder.path().join("out/checkpoint")).unwrap() {
+        let path = entry.unwrap().path();
+        let mut bytes = std::fs::read(&path).unwrap();
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        std::fs::write(&path, bytes).unwrap();
+    }
+    let output = run(folder.path(), "out", &["--resume"]);
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("is damaged: its checksum is another"), "{}", said(&output));
+    // without --resume it begins anew
+    assert!(run(folder.path(), "out", &[]).status.success());
+    assert!(run(folder.path(), "alone", &[]).status.success());
+    same(&folder.path().join("alone"), &folder.path().join("out"));
+}
+
+#[test]
+fn a_damaged_checkpoint_gives_way_to_the_one_before() {
+    let folder = squares(&cracking("every", "load"));
+    assert!(run(folder.path(), "alone", &[]).status.success());
+    killed(folder.path(), "out", 8, &["--checkpoint", "1"]);
+    let latest = folder.path().join("out/checkpoint/latest");
+    let bytes = std::fs::read(&latest).unwrap();
+    std::fs::write(&latest, &bytes[..bytes.len() / 2]).unwrap();
+    let output = run(folder.path(), "out", &["--resume"]);
+    let told = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        told.contains("goes on after increment 2\n") && told.contains("is damaged"),
+        "{told}{}",
+        said(&output)
+    );
+    same(&folder.path().join("alone"), &folder.path().join("out"));
+}
