@@ -131,6 +131,15 @@ extremes: $(MIDPLANE) $(VENV)  ## try every extreme, write docs/EXTREMES.md and 
 extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/extremes-quick/report.html
 	PYTHONPATH=pipeline $(PYTHON) pipeline/extremes $(MIDPLANE) -o results/extremes-quick --quick $(rows)
 
+kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
+	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test
+
+kill-test-quick: $(MIDPLANE)  ## a few of each
+	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test-quick --kills 24 --signals 12 --disks 5 --pairs 6
+
+bench-growth: $(MIDPLANE)  ## what 10 000 increments write, and the price of checkpoints, five minutes
+	python3 benches/growth.py $(MIDPLANE)
+
 bench: $(MIDPLANE) $(VENV)  ## whole runs of 10 000 to 1 000 000 dofs, then the kernels: results/bench/, some minutes
 	python3 benches/scenes.py $(MIDPLANE)
 	$(PYTHON) benches/plot.py $(BENCHED) -o results/bench/bench.png
@@ -140,6 +149,7 @@ bench-quick: $(MIDPLANE) $(VENV)  ## the same at 10 000 dofs only, in seconds
 	python3 benches/scenes.py $(MIDPLANE) --sizes 10k --repeat 2 -o results/bench-quick
 	$(PYTHON) benches/plot.py results/bench-quick/scenes.csv -o results/bench-quick/bench.png
 	python3 benches/below.py $(MIDPLANE) --repeat 3
+	python3 benches/growth.py $(MIDPLANE) --increments 1000 --repeat 3 -o results/bench-quick/growth
 	cargo bench --locked --bench kernels -- '10000$$'
 	cargo bench --locked --bench law
 	cargo bench --locked --bench pairing
@@ -231,4 +241,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test confinement extremes extremes-quick trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test confinement extremes extremes-quick kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

@@ -52,7 +52,7 @@ class Case:
     seconds: float = 0.0
 
 
-def digest(folder, path):
+def digest(path):
     """The bytes of a file, without what differs between two runs that do the same."""
     data = path.read_bytes()
     if path.name in ("summary.json", "study.json") or path.parent.name == "points":
@@ -61,11 +61,14 @@ def digest(folder, path):
     if path.name == "study.csv":
         rows = list(csv.DictReader(data.decode().splitlines()))
         return json.dumps([{k: v for k, v in row.items() if not is_measured(k)} for row in rows])
-    return data if path.parent.name != "checkpoint" else path.name
+    if path.name == "manifest":
+        # ends of steps are kept as often as time allows
+        return [line for line in data.decode().splitlines() if not line.startswith("checkpoint/")]
+    return data
 
 
 def is_measured(key):
-    """Quantities of the process, not of the model; a run that goes on factors once more."""
+    """Quantities of the process, not of the model; one that goes on factors once more."""
     names = ("time", "peak_memory_bytes", "resumed", "factorisations", "seconds", "processor", "stages", "peak_memory", "reused",
              "load_average", "seconds_min", "seconds_median", "seconds_spread", "processor_seconds")
     return key in names or key.startswith("seconds.")
@@ -78,8 +81,13 @@ def timeless(value):
 
 
 def contents(folder):
-    """All files below a folder by name, hidden ones too."""
-    return {str(path.relative_to(folder)): digest(folder, path) for path in sorted(folder.rglob("*")) if path.is_file()}
+    """All files below a folder by name, hidden ones too, but for its checkpoints."""
+    files = [path for path in sorted(folder.rglob("*")) if path.is_file()]
+    return {str(path.relative_to(folder)): digest(path) for path in files if not is_checkpoint(path)}
+
+
+def is_checkpoint(path):
+    return path.parent.name == "checkpoint" and not path.name.startswith(".")
 
 
 def broken(folder):
@@ -175,8 +183,10 @@ class Test:
             print(f"FAILED   {self.failures[-1]}", flush=True)
 
     def kill(self, number, case):
-        """SIGKILL, up to three times before the run may go to its end."""
+        """SIGKILL, up to three times before the run may go to its end; now and then over good results."""
         folder, fault = self.out / "kill" / f"{number}", None
+        if self.random.random() < 0.3:
+            shutil.copytree(self.out / "alone" / case.name, folder)
         for again in range(self.random.choice([1, 1, 2, 3])):
             more = case.resume if again else []
             process = self.start([*case.arguments, *more, *self.often(case)], folder)
@@ -202,7 +212,7 @@ class Test:
             fault = f"{sent.name}: gmsh goes on, {meshers(folder)}"
         elif folder.is_dir() and (broken(folder) or any(folder.rglob(".midplane-*"))):
             fault = f"{sent.name}: {broken(folder)} {list(folder.rglob('.midplane-*'))}"
-        elif process.returncode and "goes on" in said and not any(folder.rglob("checkpoint/*")):
+        elif process.returncode and "--resume" in said and not any(folder.rglob("checkpoint/*")):
             fault = f"{sent.name}: no checkpoint: {said.strip()}"
         self.check("signal", number, case, folder, fault)
 

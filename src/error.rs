@@ -6,7 +6,7 @@ mod warning;
 pub use stop::Stop;
 pub use warning::{Code, Warning};
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Result of everything that can fail on input or environment.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -77,14 +77,12 @@ pub enum Error {
         kept: usize,
     },
     /// A signal asked the run to end; what converged before is on disk.
-    #[error("stopped by {}; {}", signal_name(*signal), kept_text(*kept, folder))]
+    #[error("stopped by {}; {kept}", signal_name(*signal))]
     Stopped {
         /// Number of the signal.
         signal: u8,
-        /// Converged increments on disk.
-        kept: usize,
-        /// Folder of their results; empty before there is one.
-        folder: PathBuf,
+        /// What is on disk, and how to go on.
+        kept: String,
     },
     /// A results folder that cannot be used.
     #[error("{}: {what}; {help}", folder.display())]
@@ -183,6 +181,11 @@ impl Error {
         }
     }
 
+    /// The end by a signal before anything was written.
+    pub fn stopped(signal: u8) -> Error {
+        Error::Stopped { signal, kept: "nothing was written".into() }
+    }
+
     /// Shorthand for a mesh error.
     pub fn mesh(file: impl Into<PathBuf>, what: impl Into<String>, help: impl Into<String>) -> Error {
         Error::Mesh { file: file.into(), what: what.into(), help: help.into() }
@@ -237,15 +240,6 @@ fn signal_name(signal: u8) -> String {
         2 => "Ctrl-C".into(),
         15 => "SIGTERM".into(),
         other => format!("signal {other}"),
-    }
-}
-
-fn kept_text(kept: usize, folder: &Path) -> String {
-    match (kept, folder.as_os_str().is_empty()) {
-        (_, true) => "nothing was written".into(),
-        (0, false) => format!("kept the unloaded state in {}", folder.display()),
-        (1, false) => format!("kept 1 increment in {}, --resume goes on from there", folder.display()),
-        (_, false) => format!("kept {kept} increments in {}, --resume goes on from there", folder.display()),
     }
 }
 

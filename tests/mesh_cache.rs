@@ -44,6 +44,21 @@ fn only_what_has_changed_is_meshed_again() {
 }
 
 #[test]
+fn a_mesh_that_is_damaged_is_made_again() {
+    let place = Place::new("block.geo", BLOCK);
+    let first = place.mesh(&[]).unwrap();
+    let good = fs::read(&first.path).unwrap();
+    let mut one_bit = good.clone();
+    one_bit[good.len() / 2] ^= 1;
+    for damaged in [&good[..good.len() / 2], &one_bit, b""] {
+        fs::write(&first.path, damaged).unwrap();
+        assert_eq!(place.mesh(&[]).unwrap(), Meshed { path: first.path.clone(), reused: false });
+        assert!(fs::read(&first.path).unwrap() == good);
+        assert!(place.mesh(&[]).unwrap().reused);
+    }
+}
+
+#[test]
 fn a_hit_does_not_start_the_mesher_and_another_version_does() {
     let place = Place::new("block.geo", BLOCK);
     let through = impostor(&place, "exec gmsh \"$@\"");

@@ -103,7 +103,12 @@ fn every_command_ends_as_it_would() {
     for (arguments, is_data) in commands {
         ended(folder.path(), arguments, [End::Open, End::Open]); // a mesh or a point may be reused from here on
         let (code, texts) = ended(folder.path(), arguments, [End::Open, End::Open]);
-        assert_eq!(code, Some(if arguments[1] == "bad.json" { 2 } else { 0 }), "{arguments:?}: {}", texts[1]);
+        assert_eq!(
+            code,
+            Some(if arguments.contains(&"bad.json") { 2 } else { 0 }),
+            "{arguments:?}: {}",
+            texts[1]
+        );
         for end in [End::Closed, End::Full, End::Broken, End::Slow] {
             for ends in [[end, End::Open], [End::Open, end], [end, end]] {
                 let (other, read) = ended(folder.path(), arguments, ends);

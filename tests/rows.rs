@@ -180,18 +180,22 @@ fn the_mesher_ends_with_the_run() {
     let fake = folder.path().join("slow_gmsh");
     std::fs::write(
         &fake,
-        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 4.8.4; exit; fi\necho $$ > pid\nexec sleep 600\n",
+        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 4.8.4; exit; fi\nsleep 600 &\necho $$ $! > pid\nwait\n",
     )
     .unwrap();
     std::fs::set_permissions(&fake, std::fs::Permissions::from_mode(0o755)).unwrap();
     let child = start(folder.path(), &["run", "squares.json", "-o", "out", "--gmsh", "./slow_gmsh"]);
     let pid = || std::fs::read_to_string(folder.path().join("pid")).unwrap_or_default().trim().to_string();
-    wait_for("the mesher has not begun", || !pid().is_empty());
+    wait_for("the mesher has not begun", || pid().contains(' '));
     signal(&child, "-TERM");
     let ended = child.wait_with_output().unwrap();
     let message = String::from_utf8_lossy(&ended.stderr);
     assert_eq!(ended.status.code(), Some(143), "{message}");
     assert!(message.contains("stopped by SIGTERM; nothing was written"), "{message}");
     assert!(!folder.path().join("out").exists());
-    wait_for("the mesher goes on", || !Path::new(&format!("/proc/{}", pid())).exists());
+    let goes_on = |id: &str| {
+        let text = std::fs::read_to_string(format!("/proc/{id}/stat")).unwrap_or_default();
+        !text.is_empty() && !text.contains(") Z ") // one that has ended may wait for its parent
+    };
+    wait_for("the mesher or its child goes on", || !pid().split_whitespace().any(goes_on));
 }

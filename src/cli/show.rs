@@ -98,6 +98,7 @@ impl Show {
                 self.printer
                     .error(&format!("note: takes the place of the results of another scene, {scene}"));
             }
+            Event::Kept(kept) => self.printer.error(&format!("note: {kept}")),
             Event::Left(folder) => {
                 self.printer
                     .error(&format!("note: the results of an earlier run in {} stay", folder.display()));

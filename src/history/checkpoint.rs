@@ -65,9 +65,8 @@ impl<'a> History<'a> {
         let (engine, stop) = (equations.engine(), equations.stop.clone());
         let mut analysis = Analysis { problem, engine, state, totals, clock, stop };
         let mut loads = None;
-        if let (Some(step), false) =
-            (problem.steps.get(position.step_number), matches!(position.phase, Phase::Supports))
-        {
+        let between = matches!(position.phase, Phase::Supports);
+        if let (Some(step), false) = (problem.steps.get(position.step_number), between) {
             analysis.clock.begin("factor");
             let kept = analysis.totals.increments;
             analysis.engine.support(&step.constrained).map_err(|_| singular(step, kept))?;
@@ -97,6 +96,6 @@ impl<'a> History<'a> {
     pub fn place(&self) -> Option<(usize, bool)> {
         let Position { step_number, phase } = &self.position;
         let lost = matches!(phase, Phase::Lost { .. });
-        (!lost).then(|| (*step_number, matches!(phase, Phase::Supports)))
+        (!lost).then_some((*step_number, matches!(phase, Phase::Supports)))
     }
 }

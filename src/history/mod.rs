@@ -55,8 +55,6 @@ pub use increment::Increment;
 pub use state::ModelState;
 pub use totals::{Snap, Totals};
 
-use std::path::PathBuf;
-
 use serde::{Deserialize, Serialize};
 
 use account::account;
@@ -188,7 +186,7 @@ impl<'a> History<'a> {
                 }
                 let kept = analysis.totals.increments;
                 if let Some(signal) = analysis.stop.requested() {
-                    return Err(Error::Stopped { signal, kept, folder: PathBuf::new() });
+                    return Err(Error::stopped(signal));
                 }
                 return Err(no_equilibrium(analysis.problem, step, *number, kept, *load_factor, why));
             }

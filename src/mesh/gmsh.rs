@@ -157,7 +157,7 @@ impl Gmsh {
             let _ = child.wait();
         }
         if let Some(signal) = self.stop.requested() {
-            return Err(Error::Stopped { signal, kept: 0, folder: PathBuf::new() });
+            return Err(Error::stopped(signal));
         }
         let lines = || {
             let text = std::fs::read(&log).unwrap_or_default();

@@ -8,6 +8,9 @@
 //! CRC-32 of all this
 //! ```
 
+use std::cmp::Reverse;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -80,25 +83,27 @@ pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<()> {
     write_whole(&folder.join(name), bytes)
 }
 
-/// All checkpoints of a folder, the latest first; with those that cannot be used, and why.
-pub(super) fn read_all(folder: &Path) -> (Vec<Found>, Vec<Error>) {
+/// The checkpoints of a folder, the latest first; before them those whose place cannot be read.
+pub(super) fn all_of(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder.join(FOLDER)).into_iter().flatten().flatten();
-    let paths = entries.map(|entry| entry.path()).filter(|path| {
+    let named = entries.map(|entry| entry.path()).filter(|path| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         name == "latest" || name.starts_with("step_")
     });
-    let (mut found, mut unusable) = (Vec::new(), Vec::new());
-    for read in paths.map(|path| read(&path)) {
-        match read {
-            Ok(one) => found.push(one),
-            Err(error) => unusable.push(error),
-        }
-    }
-    found.sort_by_key(|one| std::cmp::Reverse(one.place));
-    (found, unusable)
+    let mut placed: Vec<(Option<CheckpointPlace>, PathBuf)> =
+        named.map(|path| (place(&path), path)).collect();
+    placed.sort_by_key(|(place, _)| place.map(Reverse));
+    placed.into_iter().map(|(_, path)| path).collect()
 }
 
-fn read(path: &Path) -> Result<Found> {
+/// The place of a checkpoint, from its second line.
+fn place(path: &Path) -> Option<CheckpointPlace> {
+    let line = BufReader::new(File::open(path).ok()?).split(b'\n').nth(1)?.ok()?;
+    serde_json::from_slice(&line).ok()
+}
+
+/// Reads a checkpoint.
+pub(super) fn read(path: &Path) -> Result<Found> {
     let bytes = std::fs::read(path).map_err(Error::io("read", path))?;
     let (text, sum) =
         bytes.split_at_checked(bytes.len().wrapping_sub(SUM)).ok_or_else(|| damaged(path, "too short"))?;

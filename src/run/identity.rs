@@ -149,6 +149,44 @@ mod tests {
     use serde_json::json;
 
     #[test]
+    fn what_was_done_must_be_the_same_and_what_is_to_come_may_differ() {
+        let one = Identity {
+            version: "1".into(),
+            scene: json!({ "plane": "strain", "steps": ["a", "b", "c"] }),
+            meshes: vec![("lower".into(), "12".into())],
+            columns: vec!["top".into()],
+            arrays: vec!["damage".into()],
+        };
+        let place = CheckpointPlace { increment: 7, step: 1, between: true };
+        let within = CheckpointPlace { between: false, ..place };
+        type Change = fn(&mut Identity);
+        let changes: [(Change, &CheckpointPlace, Option<&str>); 9] = [
+            (|_| (), &within, None),
+            (|now| now.version = "2".into(), &place, Some("is of version 1, and this is 2")),
+            (|now| now.scene["steps"][1] = json!("x"), &place, None),
+            (
+                |now| now.scene["steps"][1] = json!("x"),
+                &within,
+                Some("is of another scene: steps.1 is \"x\", it was \"b\""),
+            ),
+            (|now| now.scene["steps"][2] = json!("x"), &within, None),
+            (
+                |now| now.scene["plane"] = json!("stress"),
+                &place,
+                Some("is of another scene: plane is \"stress\", it was \"strain\""),
+            ),
+            (|now| now.meshes[0].1 = "13".into(), &place, Some("is of another mesh of lower")),
+            (|now| now.columns.push("flow".into()), &place, Some("is of a history without the column flow")),
+            (|now| now.arrays.clear(), &place, Some("is of a run with more columns or arrays")),
+        ];
+        for (change, place, told) in changes {
+            let mut now = one.clone();
+            change(&mut now);
+            assert_eq!(one.difference(&now, place).as_deref(), told);
+        }
+    }
+
+    #[test]
     fn the_first_difference_is_told() {
         let scene = json!({ "materials": { "rock": { "young": 1e4 } }, "steps": [1, 2] });
         assert_eq!(difference("", &scene, &scene), None);

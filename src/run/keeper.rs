@@ -35,7 +35,7 @@ pub(super) struct Keeper {
     every: Every,
     /// What the checkpoints belong to, as JSON.
     identity: Vec<u8>,
-    /// The end of every step is kept, not of the last one only.
+    /// The ends of all steps are kept, not of the last two only.
     all_steps: bool,
     steps: usize,
     /// The state after the last increment; empty if it is on disk.
@@ -49,12 +49,12 @@ impl Keeper {
     /// For a run that begins, or goes on after so many increments.
     pub(super) fn new(
         every: Every,
-        identity: &Identity,
+        identity: Option<&Identity>,
         problem: &Problem,
         increment: usize,
     ) -> Result<Keeper> {
         let all_steps = matches!(problem.fields, Fields::Every | Fields::Step);
-        let identity = serde_json::to_vec(identity);
+        let identity = serde_json::to_vec(&identity);
         let identity = identity.map_err(|error| Error::io("write", LATEST)(std::io::Error::other(error)))?;
         let place = CheckpointPlace { increment, step: 0, between: true };
         let (steps, held, spent) = (problem.steps.len(), Vec::new(), Duration::ZERO);
@@ -96,8 +96,8 @@ impl Keeper {
             if ends {
                 results.remove(LATEST); // an earlier one
             }
-            if ends && !self.all_steps && step > 1 {
-                results.remove(&of_step(step - 1));
+            if ends && !self.all_steps && step > 2 {
+                results.remove(&of_step(step - 2));
             }
         }
         self.spent += now.elapsed();

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::files::HIDDEN;
 
 /// A run that was killed holds its lock until the system has cleared it away.
-const GRACE: Duration = Duration::from_millis(500);
+const GRACE: Duration = Duration::from_millis(50);
 
 /// A lock; given back when dropped.
 #[derive(Debug)]

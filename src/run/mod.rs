@@ -22,6 +22,7 @@ pub use prepare::{Prepared, mesh, prepare};
 pub use presets::{parse_scene, read_scene};
 pub use shared::Shared;
 
+use identity::Identity;
 use keeper::Keeper;
 use results::Results;
 
@@ -106,6 +107,8 @@ pub enum Event<'a> {
     Resumed(&'a Resumed),
     /// The results of another scene in the folder go when the first row of this one is complete.
     Replaces(&'a str),
+    /// What a run that failed has kept of its own, and how to go on.
+    Kept(&'a str),
     /// A run that failed has left the results of an earlier one in their folder.
     Left(&'a Path),
 }
@@ -174,8 +177,12 @@ fn attempt(
     if let Some(other) = &results.other {
         listen(Event::Replaces(other));
     }
-    let identity = identity::Identity::new(&scene, &problem);
-    let resumed = if options.resume { resume::find(&mut results, &identity, listen)? } else { None };
+    let keeps = options.checkpoints != Every::Never;
+    let identity = (keeps || options.resume).then(|| Identity::new(&scene, &problem));
+    let resumed = match identity.as_ref().filter(|_| options.resume) {
+        Some(identity) => resume::find(&mut results, identity, listen)?,
+        None => None,
+    };
     let method = resumed.as_ref().map(|checkpoint| checkpoint.method());
     let cache = shared.map(|shared| shared.cache.clone());
     let means = Means { cache, stop: options.stop.clone(), method, ..Means::default() };
@@ -185,7 +192,7 @@ fn attempt(
         None => History::new(&problem, &equations, clock),
     };
     let increments = history.totals().increments;
-    let mut keeper = Keeper::new(options.checkpoints, &identity, &problem, increments)?;
+    let mut keeper = Keeper::new(options.checkpoints, identity.as_ref(), &problem, increments)?;
     let followed = follow(&mut history, &mut results, &mut keeper, &options.stop, listen);
     *placed = !results.leaves_earlier();
     if followed.is_err() {
@@ -195,11 +202,16 @@ fn attempt(
     let end = match followed {
         Ok(()) => None,
         Err(end @ Error::NoEquilibrium { .. }) => Some(presets::suspected(end, scene.accuracy)),
-        Err(Error::Stopped { signal, kept, .. }) => {
-            let folder = if *placed { path.clone() } else { PathBuf::new() };
-            Some(Error::Stopped { signal, kept, folder })
+        Err(Error::Stopped { signal, .. }) if *placed => {
+            Some(Error::Stopped { signal, kept: kept(history.totals().increments, &path, keeps) })
         }
-        Err(other) => return Err(other),
+        Err(end @ Error::Stopped { .. }) => Some(end),
+        Err(other) => {
+            if results.has_rows() {
+                listen(Event::Kept(&kept(history.totals().increments, &path, keeps)));
+            }
+            return Err(other);
+        }
     };
     equations.reused().iter().for_each(|what| listen(Event::Reused(what)));
     if end.is_none() {
@@ -218,6 +230,17 @@ fn attempt(
     };
     let (clock, totals) = (history.clock().clone(), results.totals);
     Ok(RunDone { folder: path, collection, clock, totals, peak_memory: memory::peak() })
+}
+
+/// What a run that was stopped has left, and how to go on.
+fn kept(increments: usize, folder: &Path, goes_on: bool) -> String {
+    let place = folder.display();
+    let how = if goes_on { ", --resume goes on from there" } else { "" };
+    match increments {
+        0 => format!("kept the unloaded state in {place}"),
+        1 => format!("kept 1 increment in {place}{how}"),
+        many => format!("kept {many} increments in {place}{how}"),
+    }
 }
 
 /// Goes through the history, writes every increment, tells of it and keeps the state.

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
-use super::places::LATEST;
+use super::places::{LATEST, of_step};
 use super::summary::{self, Balance};
 use crate::error::{Error, Result};
 use crate::history::{Clock, Increment, ModelState, Totals};
@@ -62,7 +62,9 @@ impl<'a> Results<'a> {
         let names = problem.model.subdomains.iter().map(|part| part.name.clone());
         let names: Vec<String> =
             names.chain(problem.model.interfaces.iter().map(|i| i.name.clone())).collect();
-        check_free(folder.path(), earlier.as_ref(), &files_once(name, &problem.model), &names)?;
+        let checkpoints = (1..=problem.steps.len()).map(of_step).chain([LATEST.into()]);
+        let wanted: Vec<String> = files_once(name, &problem.model).into_iter().chain(checkpoints).collect();
+        check_free(folder.path(), earlier.as_ref(), &wanted, &names)?;
         let other = earlier.as_ref().map(|earlier| earlier.scene.clone()).filter(|scene| scene != name);
         let (earlier, state, totals) = (earlier.is_some(), ResultsState::default(), Totals::default());
         let (writer, balance, from) = (None, None, None);
@@ -101,6 +103,11 @@ impl<'a> Results<'a> {
     /// Path of the folder.
     pub(super) fn path(&self) -> &std::path::Path {
         self.folder.path()
+    }
+
+    /// True if there are rows in their place.
+    pub(super) fn has_rows(&self) -> bool {
+        self.state.rows[0] > 0 && !self.earlier
     }
 
     /// True while the results of an earlier run are in place.

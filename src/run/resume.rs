@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::checkpoint::{Kept, read_all};
+use super::checkpoint::{Kept, all_of, read};
 use super::identity::Identity;
 use super::places::FOLDER;
 use super::results::Results;
@@ -14,22 +14,24 @@ use crate::problem::Problem;
 /// The checkpoint to go on from, with the results up to it; none if there is none at all.
 pub(super) fn find(results: &mut Results, now: &Identity, listen: Listener) -> Result<Option<Checkpoint>> {
     let problem = results.problem;
-    let (found, unusable) = read_all(results.path());
-    let mut passed: Option<Error> = unusable.into_iter().next();
-    for one in &found {
-        let usable = match one.identity.difference(now, &one.place) {
-            Some(what) => Err(Identity::refused(&one.path, what)),
-            None => one.kept().and_then(|kept| match results.has_rows_of(&kept.results)? {
-                true => Ok(kept),
-                false => Err(Identity::refused(&one.path, "is of other rows than those beside it".into())),
-            }),
-        };
+    let mut passed: Option<Error> = None;
+    for path in all_of(results.path()) {
+        let usable = read(&path).and_then(|one| {
+            if let Some(what) = one.identity.difference(now, &one.place) {
+                return Err(Identity::refused(&path, what));
+            }
+            let kept = one.kept()?;
+            match results.has_rows_of(&kept.results)? {
+                true => Ok((one.place, kept)),
+                false => Err(Identity::refused(&path, "is of other rows than those beside it".into())),
+            }
+        });
         match usable {
-            Ok(Kept { results: state, history }) => {
-                let name = one.path.file_name().unwrap_or_default().to_string_lossy();
-                let complete = one.place.step == problem.steps.len();
+            Ok((place, Kept { results: state, history })) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                let complete = place.step == problem.steps.len();
                 results.go_on(state, history.totals(), &format!("{FOLDER}/{name}"), complete);
-                let (increments, passed) = (one.place.increment, passed.map(|why| why.to_string()));
+                let (increments, passed) = (place.increment, passed.map(|why| why.to_string()));
                 listen(Event::Resumed(&Resumed::After { increments, passed }));
                 return Ok(Some(history));
             }

@@ -94,8 +94,14 @@ pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress
         }
         first_error
     });
-    if let Some(error) = first_error {
-        return Err(error);
+    match first_error {
+        Some(Error::Stopped { signal, .. }) => {
+            let kept =
+                format!("kept {done} of {total} points in {}, the same command goes on", means.out.display());
+            return Err(Error::Stopped { signal, kept });
+        }
+        Some(error) => return Err(error),
+        None => {}
     }
     let outcomes: Vec<PointOutcome> = outcomes.into_iter().flatten().collect();
     let designed = plan.designed.min(outcomes.len());

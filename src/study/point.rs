@@ -160,7 +160,7 @@ fn run_apart(means: &StudyMeans, point: usize, repeat: usize) -> Result<PointOut
     let output = command.output().map_err(Error::io("start", "a process of a point"))?;
     let seconds = start.elapsed().as_secs_f64();
     if let Some(signal) = means.options.stop.requested() {
-        return Err(Error::Stopped { signal, kept: 0, folder: PathBuf::new() });
+        return Err(Error::stopped(signal));
     }
     let read = read(&once);
     // it may not be there, and is of no use any more if it is
