@@ -27,9 +27,10 @@ fn errors_stay_within_one_and_a_half_of_the_recorded_ones() {
         });
         std::fs::write(&file, study.to_string()).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
-        let output = command.arg("study").arg(&file).arg("-q").arg("-o").arg(folder.path()).output().unwrap();
+        let out = folder.path().join("out");
+        let output = command.arg("study").arg(&file).arg("-q").arg("-o").arg(&out).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = std::fs::read_to_string(folder.path().join("study.json")).unwrap();
+        let text = std::fs::read_to_string(out.join("study.json")).unwrap();
         let done: Value = serde_json::from_str(&text).unwrap();
         let mut before = f64::INFINITY;
         for ((preset, within), point) in

@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
-use super::growing::{TextLength, beginning};
+use super::growing::{TextLength, beginning, changed};
 use crate::error::{Error, Result};
 use crate::files::write_whole;
 
@@ -42,7 +42,8 @@ impl Manifest {
 
     /// Goes back to a length that it has had: files that were listed later are removed.
     pub(super) fn reopen(folder: &Path, length: TextLength) -> Result<Manifest> {
-        let text = beginning(&folder.join(MANIFEST), length)?.unwrap_or_default();
+        let path = folder.join(MANIFEST);
+        let text = beginning(&path, length)?.ok_or_else(|| changed(&path))?;
         let kept: HashSet<&str> = text.lines().skip(1).collect();
         let later = Listing::read(folder)?.map_or_else(Vec::new, |listing| listing.files);
         remove(folder, later.iter().filter(|file| !kept.contains(file.as_str())))?;

@@ -110,7 +110,11 @@ impl Writer {
             length.map(|length| Growing::reopen(&path, length, end)).transpose()
         };
         let history = at(HISTORY, lengths.history, "")?;
-        let collection = at(&collection(name), lengths.collection, pvd::END)?;
+        let listed = collection(name);
+        let collection = at(&listed, lengths.collection, pvd::END)?;
+        if collection.is_none() {
+            let _ = std::fs::remove_file(folder.join(listed)); // it may not be there
+        }
         let manifest = Manifest::reopen(folder, lengths.manifest)?;
         let (folder, name, head) = (folder.into(), name.into(), head(columns));
         Ok(Writer { folder, name, manifest, history, collection, head })

@@ -213,6 +213,9 @@ fn attempt(
             return Err(other);
         }
     };
+    if end.is_none() {
+        results.finish(history.state())?;
+    }
     equations.reused().iter().for_each(|what| listen(Event::Reused(what)));
     if end.is_none() {
         results.totals = history.totals().clone();

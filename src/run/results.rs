@@ -152,20 +152,9 @@ impl<'a> Results<'a> {
             Fields::None => false,
         };
         self.reopen()?;
-        let Some(writer) = &mut self.writer else { return Ok(None) };
         if wanted && self.state.stored.is_none_or(|stored| stored < number) {
-            if self.scene.output.fields == Fields::Last {
-                self.state.before_last = Some((writer.lengths(), self.state.stored, self.state.rows[1]));
-            }
-            let row = RowData {
-                row: number,
-                step: if number == 0 { 0 } else { increment.step_number + 1 },
-                load_factor: increment.load_factor,
-                energies: [state.stored, state.dissipated, state.released, state.work],
-            };
-            writer.fields(problem, &state.snapshot, &row)?;
-            self.state.stored = Some(number);
-            self.state.rows[1] += 1;
+            let step = if number == 0 { 0 } else { increment.step_number + 1 };
+            self.fields(state, number, step, increment.load_factor)?;
         }
         if !state.force.is_empty() {
             self.balance = Some(summary::balance(&problem.model, &state.loads(problem), &state.reactions));
@@ -183,6 +172,7 @@ impl<'a> Results<'a> {
             energy_balance: state.energy_balance(),
             values: state.probes(problem),
         };
+        let Some(writer) = &mut self.writer else { return Ok(None) };
         writer.row(&row)?;
         self.state.rows[0] += 1;
         if !unloaded && self.earlier {
@@ -191,6 +181,29 @@ impl<'a> Results<'a> {
             self.folder.keep();
         }
         Ok(Some(row).filter(|_| !unloaded))
+    }
+
+    /// Of a run whose last step was not the last when it was done: its fields come now.
+    pub(super) fn finish(&mut self, state: &ModelState) -> Result<()> {
+        let number = self.totals.increments;
+        if self.scene.output.fields != Fields::Last || self.state.stored == Some(number) {
+            return Ok(());
+        }
+        self.reopen()?;
+        self.fields(state, number, self.problem.steps.len(), 1.0)
+    }
+
+    /// Writes the fields of a state.
+    fn fields(&mut self, state: &ModelState, row: usize, step: usize, load_factor: f64) -> Result<()> {
+        let Some(writer) = &mut self.writer else { return Ok(()) };
+        if self.scene.output.fields == Fields::Last {
+            self.state.before_last = Some((writer.lengths(), self.state.stored, self.state.rows[1]));
+        }
+        let energies = [state.stored, state.dissipated, state.released, state.work];
+        writer.fields(self.problem, &state.snapshot, &RowData { row, step, load_factor, energies })?;
+        self.state.stored = Some(row);
+        self.state.rows[1] += 1;
+        Ok(())
     }
 
     /// The first factor stands: results can be written, beside those of an earlier run as long as these are in place.
