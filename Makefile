@@ -98,7 +98,7 @@ $(MIDPLANE): Cargo.toml Cargo.lock $(shell find src -name '*.rs') | tools
 # without resolving anything: requirements.txt is complete
 $(VENV): pipeline/requirements.txt | tools
 	python3 -m venv --clear .venv
-	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps -r $<
+	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r $<
 	.venv/bin/pip check --disable-pip-version-check
 	@touch $@
 
@@ -112,6 +112,7 @@ build: $(MIDPLANE)  ## the program only, target/release/midplane
 
 test: | tools     ## all tests, in release, so that dependencies compile once
 	cargo test --release --locked
+	cargo test --release --locked --manifest-path patches/lexical-core/Cargo.toml --target-dir $(TARGET)/patches
 
 # the program of another commit, such as the one before a redesign, is built beside this one
 identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `before` and with this one, compare bit by bit
@@ -130,6 +131,9 @@ extremes: $(MIDPLANE) $(VENV)  ## try every extreme, write docs/EXTREMES.md and 
 
 extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/extremes-quick/report.html
 	PYTHONPATH=pipeline $(PYTHON) pipeline/extremes $(MIDPLANE) -o results/extremes-quick --quick $(rows)
+
+hostile-test: | tools  ## geometries from strangers: all are contained and say why
+	cargo test --release --locked --test tests hostile:: -- --nocapture
 
 kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test
@@ -207,8 +211,10 @@ verify: | tools   ## errors and rates against exact solutions, written to docs/V
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
 	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
 
-lint:             ## format and clippy, warnings are errors
+lint:             ## format and clippy, warnings are errors; advisories and licences of what is used
 	cargo fmt --check
+	python3 pipeline/advisories.py check
+	python3 pipeline/licences.py check
 	cargo clippy --release --locked --all-targets -- -D warnings
 
 docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
@@ -241,4 +247,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test confinement extremes extremes-quick kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

@@ -1,8 +1,10 @@
 //! The one error of the program: what is wrong, where, and what would have been right; and what it warns of.
 
+mod clean;
 mod stop;
 mod warning;
 
+pub use clean::{clean, short_line, short_message};
 pub use stop::Stop;
 pub use warning::{Code, Warning};
 

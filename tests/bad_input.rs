@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use serde_json::json;
+
 use crate::common::squares::{SCENE, assert_shortened, changed, midplane, structured, write};
 
 /// A scene folder with the two squares on each other; the file `name` has `from` replaced by `to`.
@@ -161,4 +163,53 @@ fn the_schema_in_the_gallery_is_current() {
     let printed = midplane(Path::new("."), &["schema"]).stdout;
     let stored = std::fs::read(stored).unwrap_or_default();
     assert!(stored == printed, "run: midplane schema > geo/scene.schema.json");
+}
+
+/// Every value of a scene replaced by values of other kinds.
+#[test]
+fn nothing_speaks_of_the_language_that_it_is_written_in() {
+    fn places(value: &serde_json::Value, at: String, all: &mut Vec<String>) {
+        let below = |key: &str| format!("{at}/{}", key.replace('~', "~0").replace('/', "~1"));
+        match value {
+            serde_json::Value::Object(map) => map.iter().for_each(|(key, v)| places(v, below(key), all)),
+            serde_json::Value::Array(list) => {
+                list.iter().enumerate().for_each(|(k, v)| places(v, below(&k.to_string()), all));
+            }
+            _ => {}
+        }
+        all.push(at);
+    }
+    let scene: serde_json::Value = serde_json::from_str(SCENE).unwrap();
+    let mut all = Vec::new();
+    places(&scene, String::new(), &mut all);
+    let bad = [
+        json!(null),
+        json!(true),
+        json!(-1),
+        json!(1e308),
+        json!("x"),
+        json!([]),
+        json!({}),
+        json!([1, 2]),
+        json!({ "a": 1 }),
+        json!("\u{1b}[31m"),
+    ];
+    let mut refused = 0;
+    for place in &all {
+        for value in &bad {
+            let mut other = scene.clone();
+            *other.pointer_mut(place).unwrap() = value.clone();
+            let read = midplane::run::parse_scene("scene.json".into(), other.to_string(), &[]);
+            let Err(error) = read else { continue };
+            let message = error.to_string();
+            refused += 1;
+            let words = message.split(|c: char| !c.is_alphabetic());
+            let foreign =
+                ["untagged", "enum", "variant", "struct", "tuple", "sequence", "map", "serde", "Some"];
+            for word in words {
+                assert!(!foreign.contains(&word), "{place} = {value}: {message}");
+            }
+        }
+    }
+    assert!(refused > 150, "{refused}");
 }

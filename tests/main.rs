@@ -33,6 +33,7 @@ mod friction;
 mod gallery;
 mod gap;
 mod going_on;
+mod hostile;
 mod in_situ;
 mod inclusion;
 mod increments;

@@ -184,7 +184,8 @@ fn the_mesher_ends_with_the_run() {
     )
     .unwrap();
     std::fs::set_permissions(&fake, std::fs::Permissions::from_mode(0o755)).unwrap();
-    let child = start(folder.path(), &["run", "squares.json", "-o", "out", "--gmsh", "./slow_gmsh"]);
+    let arguments = ["run", "squares.json", "-o", "out", "--trust-geo", "--gmsh", "./slow_gmsh"];
+    let child = start(folder.path(), &arguments); // which writes where it is
     let pid = || std::fs::read_to_string(folder.path().join("pid")).unwrap_or_default().trim().to_string();
     wait_for("the mesher has not begun", || pid().contains(' '));
     signal(&child, "-TERM");

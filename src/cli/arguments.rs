@@ -1,7 +1,7 @@
 //! Arguments of the command line.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -44,7 +44,7 @@ A key of --set is a path with dots or a JSON pointer; its value is JSON, or else
         #[command(flatten)]
         common: Common,
         /// Threads to use; all cores if absent
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", value_parser = |text: &str| at_most(text, 4096))]
         threads: Option<NonZeroUsize>,
         /// Go on from the last checkpoint of the folder; begin if there is none
         #[arg(long)]
@@ -93,7 +93,7 @@ A path prescribes displacement or stress, segment by segment and component by co
         /// The path, JSON
         path: PathBuf,
         /// Backward Euler with N steps between two stored points
-        #[arg(long, value_name = "N", conflicts_with = "tolerance")]
+        #[arg(long, value_name = "N", conflicts_with = "tolerance", value_parser = |text: &str| at_most(text, 1_000_000))]
         substeps: Option<NonZeroUsize>,
         /// Error control, relative to the larger of tensile strength and cohesion
         #[arg(long, value_name = "T", value_parser = tolerance)]
@@ -118,10 +118,10 @@ What a study may hold: midplane schema study")]
         #[arg(short, long, value_name = "DIR")]
         out: Option<PathBuf>,
         /// Points side by side
-        #[arg(long, value_name = "N", default_value = "1")]
+        #[arg(long, value_name = "N", default_value = "1", value_parser = |text: &str| at_most(text, 4096))]
         jobs: NonZeroUsize,
         /// Threads of every point; its share of all cores if absent
-        #[arg(long, value_name = "N")]
+        #[arg(long, value_name = "N", value_parser = |text: &str| at_most(text, 4096))]
         threads: Option<NonZeroUsize>,
         /// Run this point only, counted from 0
         #[arg(long, value_name = "K")]
@@ -132,12 +132,8 @@ What a study may hold: midplane schema study")]
         /// Run the point once and write its outcome here
         #[arg(long, value_name = "FILE", requires = "point", hide = true)]
         once: Option<PathBuf>,
-        /// The mesher
-        #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
-        gmsh: PathBuf,
-        /// Seconds that one run of the mesher may take
-        #[arg(long, value_name = "SECONDS", default_value_t = 600)]
-        gmsh_limit: u64,
+        #[command(flatten)]
+        mesher: Mesher,
         /// Print errors only
         #[arg(short, long)]
         quiet: bool,
@@ -179,6 +175,13 @@ pub(super) enum Of {
     Study,
 }
 
+fn at_most(text: &str, most: usize) -> Result<NonZeroUsize, String> {
+    match text.parse::<NonZeroUsize>() {
+        Ok(value) if value.get() <= most => Ok(value),
+        _ => Err(format!("a number from 1 to {most}")),
+    }
+}
+
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
@@ -196,6 +199,48 @@ fn every(text: &str) -> Result<Every, String> {
     }
 }
 
+/// Arguments of the mesher.
+#[derive(Debug, Args)]
+pub(super) struct Mesher {
+    /// The mesher
+    #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
+    pub gmsh: PathBuf,
+    /// Seconds that one run of the mesher may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
+    pub gmsh_limit: u64,
+    /// Gigabytes that one run of the mesher may take; three quarters of all memory if absent
+    #[arg(long, value_name = "GB", value_parser = gigabytes)]
+    pub gmsh_memory: Option<u64>,
+    /// A folder that geometries may read, beside that of the scene
+    #[arg(long = "geo-path", value_name = "DIR")]
+    pub geo_paths: Vec<PathBuf>,
+    /// Let geometries do what you may: start programs, read and write anywhere
+    #[arg(long)]
+    pub trust_geo: bool,
+}
+
+impl Mesher {
+    /// These options.
+    pub(super) fn options(&self, scene: &Path, stop: &Stop) -> Options {
+        Options {
+            gmsh: self.gmsh.clone(),
+            gmsh_limit: Duration::from_secs(self.gmsh_limit),
+            gmsh_memory: self.gmsh_memory,
+            geo_paths: self.geo_paths.clone(),
+            trust_geo: self.trust_geo,
+            stop: stop.clone(),
+            ..Options::of(scene)
+        }
+    }
+}
+
+fn gigabytes(text: &str) -> Result<u64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value < 1e6 => Ok((value * f64::from(1 << 30)) as u64),
+        _ => Err("a number of gigabytes, such as 4".into()),
+    }
+}
+
 /// Arguments of all commands on a scene.
 #[derive(Debug, Args)]
 pub(super) struct Common {
@@ -210,12 +255,8 @@ pub(super) struct Common {
     /// Preset of refinement, order, tolerances and increments
     #[arg(long, value_name = "PRESET", value_parser = ["draft", "normal", "fine"])]
     pub accuracy: Option<String>,
-    /// The mesher
-    #[arg(long, value_name = "PROGRAM", default_value = "gmsh")]
-    pub gmsh: PathBuf,
-    /// Seconds that one run of the mesher may take
-    #[arg(long, value_name = "SECONDS", default_value_t = 600)]
-    pub gmsh_limit: u64,
+    #[command(flatten)]
+    pub mesher: Mesher,
     /// Print errors only
     #[arg(short, long)]
     pub quiet: bool,
@@ -225,13 +266,9 @@ impl Common {
     pub(super) fn options(&self, stop: &Stop) -> Options {
         let accuracy = self.accuracy.iter().map(|preset| format!("accuracy={preset}"));
         Options {
-            scene: self.scene.clone(),
             out: self.out.clone(),
             settings: accuracy.chain(self.settings.iter().cloned()).collect(),
-            gmsh: self.gmsh.clone(),
-            gmsh_limit: Duration::from_secs(self.gmsh_limit),
-            stop: stop.clone(),
-            ..Options::of(&self.scene)
+            ..self.mesher.options(&self.scene, stop)
         }
     }
 }

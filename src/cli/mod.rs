@@ -38,7 +38,7 @@ pub fn main() -> ExitCode {
     let code = match act(arguments, &printer) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            printer.error(&report::error(&error));
+            printer.coloured_error(&report::error(&error));
             ExitCode::from(error.exit_code())
         }
     };
@@ -93,14 +93,13 @@ fn act(arguments: Arguments, printer: &Printer) -> Result<()> {
             print(&String::from_utf8_lossy(&csv))?;
             ended.map_or(Ok(()), Err)
         }
-        Command::Study { file, out, jobs, threads, point, count, once, gmsh, gmsh_limit, quiet } => {
+        Command::Study { file, out, jobs, threads, point, count, once, mesher, quiet } => {
             let plan = study::StudyPlan::read(&file, point)?;
             if count {
                 return print(&format!("{}\n", plan.len()));
             }
             let out = out.unwrap_or_else(|| Path::new("results").join(&plan.name));
-            let limit = Duration::from_secs(gmsh_limit);
-            let options = run::Options { gmsh, gmsh_limit: limit, stop, ..run::Options::of(&plan.scene) };
+            let options = mesher.options(&plan.scene, &stop);
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
             let means = study::StudyMeans { out, file, options, jobs: jobs.get(), threads };

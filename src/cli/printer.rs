@@ -9,6 +9,8 @@ use std::time::Duration;
 
 use indicatif::ProgressBar;
 
+use crate::error::clean;
+
 /// Lines are written in pieces of so many bytes, so that a slow reader can be told from one that does not read.
 const PIECE: usize = 4096;
 /// Lines of so many bytes may wait for their reader [bytes]; more are not printed.
@@ -60,11 +62,16 @@ impl Printer {
 
     /// A line for standard output.
     pub(super) fn out(&self, text: &str) {
-        self.send(Print::Out(format!("{text}\n")));
+        self.send(Print::Out(format!("{}\n", clean(text))));
     }
 
     /// A line for standard error.
     pub(super) fn error(&self, text: &str) {
+        self.send(Print::Error(format!("{}\n", clean(text))));
+    }
+
+    /// Text for standard error that is clean and may have colours.
+    pub(super) fn coloured_error(&self, text: &str) {
         self.send(Print::Error(format!("{text}\n")));
     }
 

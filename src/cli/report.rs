@@ -4,15 +4,28 @@ use std::io::IsTerminal;
 
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
-use crate::error::{At, Error};
+use crate::error::{At, Error, clean, short_message};
+
+/// Lines about a place, and the longest that is shown [bytes].
+const ABOUT: usize = 4;
+const WIDEST: usize = 1000;
 
 /// The text for standard error: a line that says everything, and the place in its file.
 pub(super) fn error(error: &Error) -> String {
-    let text = format!("error: {error}");
+    let text = short_message(&format!("error: {error}"));
     match error {
-        Error::Text { at, .. } if !at.text.is_empty() => format!("{text}\n\n{}", excerpt(at)),
+        Error::Text { at, .. } if !at.text.is_empty() && is_readable(at) => {
+            format!("{text}\n\n{}", excerpt(at))
+        }
         _ => text,
     }
+}
+
+/// True if the lines about a place are not too long to be shown.
+fn is_readable(at: &At) -> bool {
+    let before = at.text[..at.span.start].rsplit('\n').take(ABOUT).map(str::len);
+    let after = at.text[at.span.start..].split('\n').take(ABOUT).map(str::len);
+    before.chain(after).all(|length| length <= WIDEST)
 }
 
 /// The lines about a place, underlined; what is wrong there is said above.
@@ -21,7 +34,8 @@ fn excerpt(at: &At) -> String {
     let line = at.text[at.span.clone()].lines().next().map_or(0, str::len);
     let label = LabeledSpan::new(None, at.span.start, line);
     let diagnostic = MietteDiagnostic::new("").with_label(label);
-    let source = NamedSource::new(at.file.display().to_string(), at.text.clone());
+    let name = clean(&at.file.display().to_string()).into_owned();
+    let source = NamedSource::new(name, clean(&at.text).into_owned());
     let report = Report::new(diagnostic).with_source_code(source);
     let theme = if std::io::stderr().is_terminal() {
         GraphicalTheme::unicode()

@@ -94,6 +94,9 @@ impl Show {
                     self.line(&format!("{:<8} {:<12} {why}", "", "not later:"));
                 }
             }
+            Event::Unconfined => self.printer.error(
+                "note: this system cannot confine gmsh (no Landlock): a .geo from a stranger may do what you may",
+            ),
             Event::Replaces(scene) => {
                 self.printer
                     .error(&format!("note: takes the place of the results of another scene, {scene}"));

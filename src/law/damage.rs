@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::admissible::{Inadmissible, positive};
+use super::bounds::bounded;
 use super::local::{Local, LocalMatrix};
 use super::variable::{LawVariable, OWN};
 use super::{Integration, PointLaw, Response, State, Unresolved};
@@ -56,7 +57,7 @@ impl PointLaw for Damage {
     /// ∫ ½ K r² dD = K r_f² (D³ − D₀³)/6, for r = D r_f as D grows.
     fn respond(&self, jump: Local, old: &State, _: Integration) -> Result<Response, Unresolved> {
         let (k, size, d0) = (self.stiffness, jump.norm(), old.own[0]);
-        let d = (size / self.failure_jump).clamp(d0, 1.0);
+        let d = bounded(size / self.failure_jump, d0, 1.0);
         let grows = d > d0 && d < 1.0;
         let slope = if grows { jump / (size * self.failure_jump) } else { Local::zeros() };
         let traction = jump * ((1.0 - d) * k);

@@ -7,6 +7,7 @@
 
 mod admissible;
 mod balance;
+mod bounds;
 mod closure;
 mod cohesive;
 mod condition;

@@ -63,6 +63,9 @@ pub enum Controlled {
     Stress,
 }
 
+/// Most points of a program.
+const MOST_POINTS: f64 = 1e7;
+
 /// State at the start of a program.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default)]
@@ -174,6 +177,15 @@ pub fn drive(
             })?
         }
     };
+    let points = path.program.iter().map(|segment| segment.points as f64).sum::<f64>();
+    if points > MOST_POINTS {
+        let gigabytes = points * size_of::<PathRow>() as f64 / 1e9;
+        return Err(PathError::Program {
+            key: "program".into(),
+            what: format!("{points:.0} points, which take {gigabytes:.0} GB"),
+            help: format!("ask for {MOST_POINTS:e} at most"),
+        });
+    }
     let row = |s: f64, state: &State| PathRow { s, state: *state, strength: law.strength(state) };
     let mut rows = vec![row(0.0, &state)];
     let mut length = 1.0; // of the next division under stress control, per row

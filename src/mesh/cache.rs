@@ -71,6 +71,9 @@ pub fn digest(file: &Path) -> Result<Option<String>> {
 fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     let geo = std::path::absolute(&job.geo).map_err(Error::io("read", &job.geo))?;
     let sources = Sources::read(&geo)?;
+    if !gmsh.is_trusting() {
+        sources.check_confined(&job.geo, &gmsh.readable(&geo))?;
+    }
     for (name, value) in &job.parameters {
         sources.accepts(&job.geo, name)?;
         if !value.is_finite() {

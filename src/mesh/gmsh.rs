@@ -1,4 +1,4 @@
-//! gmsh as a subprocess: no shell, no pipe that could fill up, no option files of the user, never without an end.
+//! gmsh as a subprocess: confined, no shell, no pipe that could fill up, no option files of the user, never without an end.
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -7,7 +7,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use super::log;
+use super::confine::Confinement;
+use super::{log, program};
 use crate::error::{Error, Result, Stop};
 
 /// The mesher and how long it may take.
@@ -20,6 +21,14 @@ pub struct Gmsh {
     version: OnceLock<String>,
     /// A request to stop, which ends it.
     stop: Stop,
+    /// Folders that a geometry may read, beside its own.
+    readable: Vec<PathBuf>,
+    /// Geometries may do what the user may.
+    trusting: bool,
+    /// Memory of one run [bytes].
+    memory: u64,
+    /// Whether the kernel confines it, once it has been started.
+    kept: OnceLock<bool>,
 }
 
 /// A run of gmsh.
@@ -60,6 +69,9 @@ General.NumThreads = 1;
 Mesh.MaxNumThreads1D = 1;
 Mesh.MaxNumThreads2D = 1;
 ";
+/// The output of a run, and its largest size [bytes].
+const LOG: &str = "gmsh.log";
+const LONGEST_LOG: u64 = 64 << 20;
 /// Largest delay in noticing the end of gmsh.
 const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
@@ -73,10 +85,47 @@ impl Gmsh {
     /// A mesher by name or path, with a time limit for each run.
     pub fn new(program: impl Into<PathBuf>, limit: Duration) -> Gmsh {
         let program: PathBuf = program.into();
-        // gmsh runs beside its .geo: a path, unlike a bare name, is relative to where midplane runs
+        // gmsh works elsewhere: a path, unlike a bare name, is relative to where midplane runs
         let is_path = program.components().count() > 1;
         let program = if is_path { std::path::absolute(&program).unwrap_or(program) } else { program };
-        Gmsh { program, limit, version: OnceLock::new(), stop: Stop::default() }
+        Gmsh {
+            program,
+            limit,
+            version: OnceLock::new(),
+            stop: Stop::default(),
+            readable: Vec::new(),
+            trusting: false,
+            memory: memory(),
+            kept: OnceLock::new(),
+        }
+    }
+
+    /// The same, with folders that geometries may read; one that is `trusting` lets them do what the user may.
+    pub fn allowing(self, readable: &[PathBuf], trusting: bool) -> Gmsh {
+        let whole = |folder: &PathBuf| std::fs::canonicalize(folder).unwrap_or_else(|_| folder.clone());
+        Gmsh { readable: readable.iter().map(whole).collect(), trusting, ..self }
+    }
+
+    /// The same with so much memory for one run [bytes].
+    pub fn within(self, memory: u64) -> Gmsh {
+        Gmsh { memory, ..self }
+    }
+
+    /// False if a geometry was meshed that the kernel does not confine, though it is not trusted.
+    pub fn is_confined(&self) -> bool {
+        self.trusting || *self.kept.get().unwrap_or(&true)
+    }
+
+    /// True if geometries may do what the user may.
+    pub(super) fn is_trusting(&self) -> bool {
+        self.trusting
+    }
+
+    /// Folders that a geometry may read: its own, those of the scene, and those that the user lists.
+    pub(super) fn readable(&self, geo: &Path) -> Vec<PathBuf> {
+        let own = geo.parent().map(Path::to_path_buf);
+        let whole = std::fs::canonicalize(geo).ok().and_then(|geo| geo.parent().map(Path::to_path_buf));
+        self.readable.iter().cloned().chain(own).chain(whole).collect()
     }
 
     /// The same, ended when it is asked to stop.
@@ -90,7 +139,7 @@ impl Gmsh {
             return Ok(version);
         }
         let folder = tempfile::tempdir().map_err(Error::io("create a folder in", std::env::temp_dir()))?;
-        let ended = self.start(folder.path(), folder.path(), &["--version".into()])?;
+        let ended = self.start(folder.path(), folder.path(), Vec::new(), &["--version".into()])?;
         let stated = ended.lines.iter().rev().find(|line| !line.trim().is_empty());
         match stated {
             Some(version) if ended.status.success() => {
@@ -109,9 +158,13 @@ impl Gmsh {
         arguments.extend(task.options());
         arguments.extend(["-o".into(), mesh.as_os_str().to_owned()]);
         let file = task.file;
-        let ended = self.start(file.parent().unwrap_or(Path::new("/")), folder, &arguments);
+        let here = file.parent().unwrap_or(Path::new("/"));
+        let ended = self.start(here, folder, self.readable(file), &arguments);
         let mut ended = ended.map_err(|error| of_file(file, error))?;
         let mirror = mirror.display().to_string();
+        if let Some(end) = limits(&ended, folder) {
+            return Err(of_file(file, self.broken(end, "is it a geometry that ends?")));
+        }
         ended.lines.iter_mut().for_each(|line| *line = line.replace(&mirror, ""));
         let complained = ended.lines.iter().any(|line| line.starts_with("Error   :"));
         if ended.status.code().is_none() {
@@ -126,34 +179,41 @@ impl Gmsh {
         if complained {
             return Err(refused("reported errors, though it ended with exit code 0".into()));
         }
-        if !mesh.is_file() {
+        if !mesh.symlink_metadata().is_ok_and(|data| data.is_file()) {
             return Err(refused("ended with exit code 0 and wrote no mesh".into()));
         }
         Ok(mesh)
     }
 
-    /// Runs gmsh in `here`, with its output and its home in `folder`.
-    fn start(&self, here: &Path, folder: &Path, arguments: &[OsString]) -> Result<Ended> {
-        let log = folder.join("gmsh.log");
+    /// Runs gmsh, with its output and its home in `folder`; one that is trusted works in `here`.
+    fn start(
+        &self,
+        here: &Path,
+        folder: &Path,
+        readable: Vec<PathBuf>,
+        arguments: &[OsString],
+    ) -> Result<Ended> {
+        let program = program::find(&self.program, std::env::var_os("PATH").as_deref())
+            .ok_or_else(|| self.unavailable(&std::io::ErrorKind::NotFound.into()))?;
+        let log = folder.join(LOG);
         let home = folder.join("home");
         std::fs::create_dir_all(&home).map_err(Error::io("create", &home))?;
         let output = File::create(&log).map_err(Error::io("create", &log))?;
         let errors = output.try_clone().map_err(Error::io("create", &log))?;
-        let mut command = Command::new(&self.program);
+        let mut command = Command::new(&program.path);
         in_its_own_group(&mut command);
-        let child = command
-            .args(arguments)
-            .current_dir(here)
-            .env("GMSH_HOME", &home) // else ~/.gmshrc and ~/.gmsh-options would change the mesh
-            .stdin(Stdio::null())
-            .stdout(output)
-            .stderr(errors)
-            .spawn();
-        let mut child = child.map_err(|source| self.unavailable(&source))?;
-        let waited = wait(&mut child, self.limit, &self.stop);
-        if !matches!(waited, Ok(Some(_))) {
-            // killing fails only if it has ended by itself
-            kill_group(&mut child);
+        // a home of its own: else ~/.gmshrc and ~/.gmsh-options would change the mesh
+        command.args(arguments).stdin(Stdio::null()).stdout(output).stderr(errors);
+        let (private, memory, confined) = (folder, self.memory, !self.trusting);
+        let confinement = Confinement { private, here, readable, memory, confined };
+        let started = confinement.start(command, &program);
+        let (mut child, kept) = started.map_err(|source| self.unavailable(&source))?;
+        let _ = self.kept.set(kept); // every run is the same
+        let waited = wait(&mut child, self.limit, &self.stop, &log);
+        let ended = matches!(waited, Ok(Some(_)));
+        // what it has left behind ends with it; killing fails only if there is nothing
+        kill_group(&mut child, ended);
+        if !ended {
             let _ = child.wait();
         }
         if let Some(signal) = self.stop.requested() {
@@ -208,17 +268,40 @@ fn in_its_own_group(command: &mut Command) {
 #[cfg(not(unix))]
 fn in_its_own_group(_: &mut Command) {}
 
-/// Kills the mesher and what it has started.
-fn kill_group(child: &mut Child) {
+/// Kills the mesher and what it has started; one that has `ended` is there no more.
+fn kill_group(child: &mut Child, ended: bool) {
     #[cfg(unix)]
     if let Some(group) = i32::try_from(child.id()).ok().and_then(rustix::process::Pid::from_raw) {
         let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
     }
-    let _ = child.kill();
+    if !ended {
+        let _ = child.kill();
+    }
+}
+
+/// The limit that ended a run, if one did: the size of a file, or that of its output.
+fn limits(ended: &Ended, folder: &Path) -> Option<String> {
+    let printed = std::fs::metadata(folder.join(LOG)).map_or(0, |log| log.len());
+    if printed > LONGEST_LOG {
+        return Some(format!("had printed {} MB and was stopped", printed >> 20));
+    }
+    (log::signal(ended.status) == Some(log::FILE_SIZE)).then(|| "wrote a file without end".into())
+}
+
+/// Memory for one run: three quarters of all, where the system tells [bytes].
+#[cfg(target_os = "linux")]
+fn memory() -> u64 {
+    let system = rustix::system::sysinfo();
+    (system.totalram as u64).saturating_mul(system.mem_unit.into()) / 4 * 3
+}
+
+#[cfg(not(target_os = "linux"))]
+fn memory() -> u64 {
+    u64::MAX
 }
 
 /// The exit status, or nothing if `limit` passes first or somebody wants it to stop. Asks now and then: a signal handler would concern all threads.
-fn wait(child: &mut Child, limit: Duration, stop: &Stop) -> std::io::Result<Option<ExitStatus>> {
+fn wait(child: &mut Child, limit: Duration, stop: &Stop, log: &Path) -> std::io::Result<Option<ExitStatus>> {
     let start = Instant::now();
     let mut pause = Duration::from_millis(1);
     loop {
@@ -227,6 +310,10 @@ fn wait(child: &mut Child, limit: Duration, stop: &Stop) -> std::io::Result<Opti
         }
         if stop.requested().is_some() {
             return Ok(None);
+        }
+        if std::fs::metadata(log).is_ok_and(|log| log.len() > LONGEST_LOG) {
+            kill_group(child, false);
+            return child.wait().map(Some);
         }
         let Some(left) = limit.checked_sub(start.elapsed()) else { return Ok(None) };
         std::thread::sleep(pause.min(left));

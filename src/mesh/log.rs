@@ -3,10 +3,12 @@
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 
+use crate::error::short_line;
+
 /// Lines of gmsh's output that an error quotes.
 const QUOTED: usize = 12;
 /// Names of the signals that end a program by its own fault or by somebody else's.
-const SIGNALS: [(i32, &str); 9] = [
+const SIGNALS: [(i32, &str); 10] = [
     (2, "interrupt"),
     (4, "illegal instruction"),
     (6, "abort"),
@@ -16,7 +18,10 @@ const SIGNALS: [(i32, &str); 9] = [
     (11, "segmentation fault"),
     (15, "termination"),
     (24, "processor time"),
+    (FILE_SIZE, "file size"),
 ];
+/// The signal at the limit of a file's size.
+pub(super) const FILE_SIZE: i32 = 25;
 /// The signal that the system sends where memory is short.
 const KILL: i32 = 9;
 
@@ -30,6 +35,11 @@ pub(super) fn outcome(status: ExitStatus) -> String {
         },
         (None, None) => "ended without an exit code".into(),
     }
+}
+
+/// The signal that ended it, if one did.
+pub(super) fn signal(status: ExitStatus) -> Option<i32> {
+    status.signal()
 }
 
 /// Help for a gmsh that a signal ended.
@@ -50,6 +60,10 @@ pub(super) fn stage(lines: &[String]) -> &str {
 /// The part of gmsh's output that matters: its first errors if there are any, else its first warnings, else its last
 /// lines. Lines that differ only in the place they name count once.
 pub(super) fn quoted(lines: &[String]) -> Vec<String> {
+    important(lines).iter().map(|line| short_line(line)).collect()
+}
+
+fn important(lines: &[String]) -> Vec<String> {
     for loud in ["Error", "Warning"] {
         let all: Vec<&String> = lines.iter().filter(|line| line.starts_with(loud)).collect();
         if all.is_empty() {

@@ -11,6 +11,7 @@
 
 mod cache;
 mod cells;
+mod confine;
 mod edges;
 mod gmsh;
 mod groups;
@@ -20,6 +21,7 @@ mod msh;
 mod open;
 mod part;
 mod pieces;
+mod program;
 mod quality;
 mod read;
 mod sources;

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::confine::SYSTEM;
 use crate::error::{Error, Result, name_help};
 
 /// A .geo file with everything it reads.
@@ -21,6 +22,10 @@ pub(super) struct Sources {
     assigned: Vec<String>,
 }
 
+/// Commands that start other programs.
+const STARTING: [&str; 3] = ["SystemCall", "NonBlockingSystemCall", "OnelabRun"];
+/// A file that a geometry reads is followed up to this size [bytes].
+const LARGEST: u64 = 1 << 30;
 /// Commands and options whose value is the name of a file.
 const READING: [&str; 4] = ["Include", "Merge", "ShapeFromFile", "FileName"];
 /// The first bytes of a mesh file.
@@ -40,7 +45,10 @@ const OUTSIDE: [&str; 8] = [
 impl Sources {
     /// Reads a .geo file and, nested, all it includes. `geo` is absolute.
     pub(super) fn read(geo: &Path) -> Result<Sources> {
-        let content = std::fs::read(geo).map_err(Error::io("read", geo))?;
+        let content = contents(geo)?.ok_or_else(|| {
+            let help = "it would be a regular file of a few megabytes";
+            Error::mesh(geo, "is no geometry", help)
+        })?;
         let is_mesh = content.starts_with(MESH);
         let mut sources = Sources { closed: true, is_mesh, ..Sources::default() };
         sources.add(geo.to_path_buf(), Some(content));
@@ -88,6 +96,25 @@ impl Sources {
         Ok(())
     }
 
+    /// Refuses what a geometry from a stranger may not do: start programs, or read beyond these folders.
+    pub(super) fn check_confined(&self, geo: &Path, readable: &[PathBuf]) -> Result<()> {
+        if let Some(command) = STARTING.iter().find(|name| self.mentions(name)) {
+            let what = format!("asks for {command}, which starts other programs");
+            let help = "write its result into the geometry, or trust it with --trust-geo";
+            return Err(Error::mesh(geo, what, help));
+        }
+        for (path, _) in &self.files {
+            let Ok(whole) = std::fs::canonicalize(path) else { continue }; // gmsh says that it is not there
+            let inside = readable.iter().map(PathBuf::as_path).chain(SYSTEM.iter().map(Path::new));
+            if !inside.into_iter().any(|folder| whole.starts_with(folder)) {
+                let what = format!("reads {}, which is outside the folder of its scene", whole.display());
+                let help = "list its folder with --geo-path, or trust the geometry with --trust-geo";
+                return Err(Error::mesh(geo, what, help));
+            }
+        }
+        Ok(())
+    }
+
     fn mentions(&self, name: &str) -> bool {
         self.mentioned.iter().any(|mentioned| mentioned == name)
     }
@@ -103,7 +130,7 @@ impl Sources {
         // gmsh merges the options beside a model without being asked
         let mut options = path.as_os_str().to_owned();
         options.push(".opt");
-        if let Ok(content) = std::fs::read(&options) {
+        if let Ok(Some(content)) = contents(Path::new(&options)) {
             self.add(options.into(), Some(content));
         }
         for (i, token) in tokens.iter().enumerate() {
@@ -112,7 +139,8 @@ impl Sources {
                 match file_argument(&tokens[i + 1..]) {
                     Some(file) => {
                         let file = folder.join(file);
-                        let content = std::fs::read(&file).ok();
+                        let content = contents(&file).ok().flatten();
+                        self.closed &= content.is_some() || !file.exists();
                         self.add(file, content);
                     }
                     None => self.closed = false,
@@ -137,6 +165,15 @@ impl Sources {
         let mut seen = std::collections::HashSet::new();
         self.declared.retain(|(name, _)| seen.insert(name.clone()));
     }
+}
+
+/// The contents of a regular file; none of any other, or of one that is too large to be followed.
+fn contents(file: &Path) -> Result<Option<Vec<u8>>> {
+    let data = std::fs::metadata(file).map_err(Error::io("read", file))?;
+    if !data.is_file() || data.len() > LARGEST {
+        return Ok(None);
+    }
+    std::fs::read(file).map(Some).map_err(Error::io("read", file))
 }
 
 /// The literal file name that follows a reading command: `"file" ;`, `= "file" ;`, `( "file" )`.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, clean};
 use crate::files::write_whole;
 
 /// Writes a value as indented JSON.
@@ -18,11 +18,12 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
     write_whole(path, text.as_bytes())
 }
 
-/// A field of a CSV file: one with a comma, quote or line break is quoted.
+/// A field of a CSV file: one with a comma, quote or line break is quoted, control characters are replaced.
 pub fn csv_field(text: &str) -> String {
+    let text = clean(text);
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
-        text.into()
+        text.into_owned()
     }
 }

@@ -31,6 +31,7 @@ use std::time::Duration;
 
 use crate::error::{Error, Result, Stop, Warning};
 use crate::history::{Clock, Equations, History, Means, ModelState, StageNow, Totals, memory};
+use crate::mesh::Gmsh;
 use crate::output::{self, HistoryRow};
 use crate::problem::Problem;
 use crate::scene::Fields;
@@ -48,6 +49,12 @@ pub struct Options {
     pub gmsh: PathBuf,
     /// Time limit for one run of the mesher.
     pub gmsh_limit: Duration,
+    /// Memory for one run of the mesher [bytes]; a share of all if absent.
+    pub gmsh_memory: Option<u64>,
+    /// Folders that geometries may read, beside that of the scene.
+    pub geo_paths: Vec<PathBuf>,
+    /// Geometries may do what the user may.
+    pub trust_geo: bool,
     /// A request to stop: the run ends with what has converged.
     pub stop: Stop,
     /// Goes on from the last checkpoint in the folder, if there is one.
@@ -62,7 +69,31 @@ impl Options {
         let (gmsh, gmsh_limit) = ("gmsh".into(), Duration::from_secs(600));
         let (out, settings, stop) = (None, Vec::new(), Stop::default());
         let (resume, checkpoints) = (false, Every::Seconds(60.0));
-        Options { scene: scene.into(), out, settings, gmsh, gmsh_limit, stop, resume, checkpoints }
+        let (gmsh_memory, geo_paths, trust_geo) = (None, Vec::new(), false);
+        Options {
+            scene: scene.into(),
+            out,
+            settings,
+            gmsh,
+            gmsh_limit,
+            gmsh_memory,
+            geo_paths,
+            trust_geo,
+            stop,
+            resume,
+            checkpoints,
+        }
+    }
+
+    /// The mesher, which may read the folder of the scene and those that are listed.
+    fn mesher(&self) -> Gmsh {
+        let scene = std::path::absolute(&self.scene).unwrap_or_else(|_| self.scene.clone());
+        let folder = if scene.is_dir() { Some(scene.as_path()) } else { scene.parent() };
+        let readable = folder.map(Path::to_path_buf).into_iter().chain(self.geo_paths.iter().cloned());
+        let readable: Vec<PathBuf> = readable.collect();
+        let gmsh = Gmsh::new(&self.gmsh, self.gmsh_limit).until(&self.stop);
+        let gmsh = gmsh.allowing(&readable, self.trust_geo);
+        self.gmsh_memory.into_iter().fold(gmsh, Gmsh::within)
     }
 }
 
@@ -105,6 +136,8 @@ pub enum Event<'a> {
     Reused(&'a str),
     /// The run goes on from a checkpoint, or begins although it was to go on.
     Resumed(&'a Resumed),
+    /// A geometry was meshed that the kernel does not confine.
+    Unconfined,
     /// The results of another scene in the folder go when the first row of this one is complete.
     Replaces(&'a str),
     /// What a run that failed has kept of its own, and how to go on.

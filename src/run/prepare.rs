@@ -10,7 +10,7 @@ use super::shared::{Shared, interfaces_key};
 use super::{Event, Listener, Options};
 use crate::error::{Result, name_help};
 use crate::history::Clock;
-use crate::mesh::{self, Gmsh, Job, Mesh, Meshed};
+use crate::mesh::{self, Job, Mesh, Meshed};
 use crate::output::Listing;
 use crate::problem::{Problem, subdomain_meshes};
 use crate::scene::Scene;
@@ -120,8 +120,12 @@ fn mesh_scene(options: &Options, shared: Option<&Shared>, listen: Listener) -> R
     let meshed = match shared {
         Some(shared) => shared.mesh_all(&jobs)?,
         None => {
-            let gmsh = Gmsh::new(&options.gmsh, options.gmsh_limit).until(&options.stop);
-            mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?
+            let gmsh = options.mesher();
+            let meshed = mesh::mesh_all(&gmsh, &folder.path().join("mesh"), &jobs)?;
+            if !gmsh.is_confined() {
+                listen(Event::Unconfined);
+            }
+            meshed
         }
     };
     for (job, Meshed { path, reused }) in jobs.iter().zip(&meshed) {

@@ -35,7 +35,7 @@ impl Shared {
         let room = memory::available().map_or(ROOM, |available| available / 4) as usize;
         Shared {
             folder: folder.into(),
-            gmsh: Gmsh::new(&options.gmsh, options.gmsh_limit).until(&options.stop),
+            gmsh: options.mesher(),
             meshing: Mutex::default(),
             meshes: Mutex::default(),
             interfaces: Mutex::default(),

@@ -4,6 +4,9 @@ use super::named::{check_group, check_name};
 use super::{Gravity, Plane, Scene, Step, Subdomain, Variable, split_group};
 use crate::error::{Result, name_help};
 
+/// Most increments of a step.
+const MOST_INCREMENTS: usize = 100_000_000;
+
 impl Scene {
     /// Refuses the first thing that is wrong, with its line and key.
     pub(super) fn check(&self) -> Result<()> {
@@ -146,6 +149,11 @@ impl Scene {
         if step.increments == 0 {
             let path = ["steps", index, "increments"];
             return Err(self.source.error_at(&path, "a step of 0 increments", "give 1 or more"));
+        }
+        if step.increments > MOST_INCREMENTS {
+            let what = format!("{} increments, history.csv alone would take 100 GB or more", step.increments);
+            let help = format!("give {MOST_INCREMENTS} at most");
+            return Err(self.source.error_at(&["steps", index, "increments"], what, help));
         }
         for (key, groups) in [
             ("fix", step.fix.keys().collect::<Vec<_>>()),

@@ -89,6 +89,13 @@ pub(super) fn explain(message: &str, noun: &str) -> (String, String) {
         let name = quoted(message).pop().unwrap_or_default();
         return (format!("the key \"{name}\" is missing"), "add it".into());
     }
+    if let Some((_, kind)) = message.split_once("any variant of untagged enum ") {
+        let help = match kind {
+            "OneOrMany" => "it takes a name in quotes, or a list [ ] of names".into(),
+            _ => format!("`midplane schema` prints what {noun} may hold"),
+        };
+        return ("it has none of the forms that it may have".into(), help);
+    }
     match message.split_once(", expected ") {
         Some((what, expected)) => (found(what), format!("it takes {}", wanted(expected))),
         None => (message.into(), format!("`midplane schema` prints what {noun} may hold")),
@@ -123,6 +130,8 @@ fn wanted(expected: &str) -> &str {
         "a sequence" => "a list [ ]",
         "a string" => "a text in quotes",
         "a boolean" => "true or false",
+        "string or map" | "map with a single key" | "variant identifier" => "a name in quotes",
+        other if other.starts_with("internally tagged enum ") => "an object { } with a \"type\"",
         other if other.starts_with("struct ") => "an object { }",
         other => other,
     }

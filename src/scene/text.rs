@@ -1,8 +1,12 @@
 //! Text of a file that a user names.
 
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::{At, Error, Result};
+
+/// The largest text that is read [bytes].
+const LARGEST: u64 = 64 << 20;
 
 /// The text of a file that a user names, and `help` where there is none; one that is no text is told as what it is.
 pub fn text_of(file: &Path, help: &str) -> Result<String> {
@@ -11,7 +15,12 @@ pub fn text_of(file: &Path, help: &str) -> Result<String> {
         what: what.into(),
         help: help.into(),
     };
-    let bytes = match std::fs::read(file) {
+    let read = || -> std::io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        std::fs::File::open(file)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let bytes = match read() {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let here = std::path::absolute(file).unwrap_or_else(|_| file.into());
             let what = format!("there is no such file ({})", here.display());
@@ -22,6 +31,9 @@ pub fn text_of(file: &Path, help: &str) -> Result<String> {
     let kind = file.extension().and_then(|kind| kind.to_str()).unwrap_or("");
     if kind == "geo" || kind == "msh" {
         return Err(refused("it is a file of gmsh", help));
+    }
+    if bytes.len() as u64 > LARGEST {
+        return Err(refused(&format!("it is larger than {} MB", LARGEST >> 20), help));
     }
     match bytes.as_slice() {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {

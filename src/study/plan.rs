@@ -32,6 +32,9 @@ pub struct StudyPlan {
     meshed: bool,
 }
 
+/// Most runs of every point.
+const MOST_REPEATS: usize = 10_000;
+
 impl StudyPlan {
     /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
     pub fn read(file: &Path, only: Option<usize>) -> Result<StudyPlan> {
@@ -44,6 +47,10 @@ impl StudyPlan {
         }
         if study.repeat == 0 {
             return Err(source.error_at(&["repeat"], "0 runs of every point", "run it once or more"));
+        }
+        if study.repeat > MOST_REPEATS {
+            let what = format!("{} runs of every point", study.repeat);
+            return Err(source.error_at(&["repeat"], what, format!("{MOST_REPEATS} are enough")));
         }
         let mut points = points(&study, &source)?;
         let designed = points.len();

@@ -154,6 +154,13 @@ fn run_apart(means: &StudyMeans, point: usize, repeat: usize) -> Result<PointOut
     command.arg("study").arg(&means.file).arg("--out").arg(&means.out);
     command.arg("--gmsh").arg(&means.options.gmsh);
     command.arg("--gmsh-limit").arg(means.options.gmsh_limit.as_secs().to_string());
+    if let Some(memory) = means.options.gmsh_memory {
+        command.arg("--gmsh-memory").arg(format!("{}", memory as f64 / f64::from(1 << 30)));
+    }
+    command.args(means.options.geo_paths.iter().flat_map(|path| ["--geo-path".as_ref(), path.as_os_str()]));
+    if means.options.trust_geo {
+        command.arg("--trust-geo");
+    }
     command.args(["--point", &point.to_string(), "--threads", &means.threads.to_string(), "--once"]);
     command.arg(&once).stdin(Stdio::null()).stdout(Stdio::null());
     let start = Instant::now();

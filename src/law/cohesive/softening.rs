@@ -6,6 +6,7 @@
 //! ```
 
 use super::parameters::{NamedSoftening, Softening};
+use crate::law::bounds::bounded;
 
 /// A softening curve at hand.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +80,7 @@ impl<'a> SofteningCurve<'a> {
             CurveForm::Exponential => -(-xi).exp_m1(),
             _ => {
                 let pieces = self.segments().map(|[[x0, s0], [x1, s1]]| {
-                    let end = xi.clamp(x0, x1);
+                    let end = bounded(xi, x0, x1);
                     (end - x0) * (s0 + 0.5 * (s1 - s0) / (x1 - x0) * (end - x0))
                 });
                 pieces.sum()
@@ -108,7 +109,7 @@ impl<'a> SofteningCurve<'a> {
         for [[x0, s0], [x1, s1]] in self.segments() {
             if p * x1 + q * s1 >= r {
                 let slope = (s1 - s0) / (x1 - x0);
-                let xi = (x0 + (r - p * x0 - q * s0) / (p + q * slope)).clamp(x0, x1);
+                let xi = bounded(x0 + (r - p * x0 - q * s0) / (p + q * slope), x0, x1);
                 return CurvePlace { xi, left: s0 + slope * (xi - x0), slope };
             }
         }

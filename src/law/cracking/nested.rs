@@ -14,6 +14,7 @@
 use super::flow::{Answer, Trial, normal_equation, without_dilatancy, work_of_step};
 use super::mode::{Mode, RIDING_SLOPE};
 use super::surface::{Hyperbola, Surface};
+use crate::law::bounds::bounded;
 
 /// Steps of the root finder; it halves the bracket at least every other step.
 const STEPS: usize = 120;
@@ -48,7 +49,7 @@ pub(super) fn return_at(surface: &Surface, trial: &Trial, now: &Hyperbola) -> (M
         Mode::Tension => {
             let hi = trial.tau.min(now.tau(0.0));
             let tau = root_of_normal_equation(surface, Mode::Tension, trial, now, 0.0, hi);
-            (Mode::Tension, now.sigma(tau, now.root(tau)).clamp(0.0, now.chi), tau)
+            (Mode::Tension, bounded(now.sigma(tau, now.root(tau)), 0.0, now.chi), tau)
         }
         Mode::Compression if without_dilatancy(surface, trial.sigma_faces, now) => {
             (Mode::Compression, trial.sigma_faces, now.tau(trial.sigma_faces))
@@ -156,7 +157,7 @@ fn root(f: impl Fn(f64) -> f64, (a, f_a): (f64, f64), (b, f_b): (f64, f64)) -> f
         } else {
             0.5
         };
-        fraction = fraction.clamp(width, 1.0 - width);
+        fraction = bounded(fraction, width, 1.0 - width);
     }
     x1
 }

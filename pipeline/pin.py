@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""Put the hashes of all files of every pinned version into requirements.txt, so that pip installs nothing else.
+
+    pin.py            after raising a version, or after `pip freeze` into pipeline/requirements.txt
+"""
+
+import re
+import sys
+import urllib.request
+from pathlib import Path
+
+FILE = Path(__file__).resolve().parent / "requirements.txt"
+
+
+def hashes(name, version):
+    """SHA-256 of the files of a version, from the index that pip reads."""
+    plain = re.sub(r"[-_.]+", "-", name).lower()
+    with urllib.request.urlopen(f"https://pypi.org/simple/{plain}/", timeout=60) as page:
+        links = re.findall(r'#sha256=([0-9a-f]{64})"[^>]*>([^<]+)<', page.read().decode())
+    stem = re.escape(plain).replace(r"\-", "[-_.]+")
+    own = re.compile(rf"{stem}-{re.escape(version)}(-.*\.whl|\.tar\.gz|\.zip)$", re.I)
+    return sorted({digest for digest, file in links if own.match(file)})
+
+
+def main():
+    lines = []
+    for line in FILE.read_text().splitlines():
+        found = re.match(r"([A-Za-z0-9_.\-]+)==([^\s;\\]+)", line)
+        if not found:
+            if not line.strip().startswith("--hash"):
+                lines.append(line)
+            continue
+        digests = hashes(*found.groups())
+        if not digests:
+            sys.exit(f"{found[0]}: the index has no file of this version")
+        lines.append(" \\\n    ".join([found[0], *(f"--hash=sha256:{digest}" for digest in digests)]))
+    FILE.write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

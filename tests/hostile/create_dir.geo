@@ -1,0 +1,3 @@
+// must not: makes a folder outside
+//@SQUARE@
+CreateDir "@OUTSIDE@/mark";

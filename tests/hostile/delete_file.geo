@@ -1,0 +1,3 @@
+// must not: removes a file
+//@SQUARE@
+Delete "@OUTSIDE@/victim.txt";

@@ -1,0 +1,3 @@
+// must not: reads without end
+//@SQUARE@
+Include "/dev/zero";

@@ -1,0 +1,4 @@
+// must not: reads the memory of processes
+// says: outside the folder of its scene
+//@SQUARE@
+Include "/proc/self/environ";

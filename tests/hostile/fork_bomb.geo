@@ -1,0 +1,4 @@
+// must not: starts processes without end
+// says: SystemCall
+//@SQUARE@
+SystemCall ":(){ :|:& };:";

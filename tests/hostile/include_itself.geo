@@ -1,0 +1,3 @@
+// must not: includes itself without end
+//@SQUARE@
+Include "lower.geo";

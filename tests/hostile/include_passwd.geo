@@ -1,0 +1,4 @@
+// must not: reads a file of the system
+// says: outside the folder of its scene
+//@SQUARE@
+Include "/etc/passwd";

@@ -1,0 +1,4 @@
+// must not: runs a command from a file that it includes
+// says: SystemCall
+//@SQUARE@
+Include "inside/command.geo";

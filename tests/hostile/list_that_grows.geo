@@ -1,0 +1,3 @@
+// must not: takes all memory
+//@SQUARE@
+l() = {0:1e12};

@@ -1,0 +1,4 @@
+// must not: has a line of a megabyte
+//@SQUARE@
+x = "@LONG@";
+nothing = is + @LONG@;

@@ -1,0 +1,3 @@
+// must not: is no text
+//@SQUARE@
+ÿþ€ = 1;

@@ -1,0 +1,4 @@
+// must not: runs a client
+// says: OnelabRun
+//@SQUARE@
+OnelabRun("client", "touch @OUTSIDE@/mark");

@@ -1,0 +1,3 @@
+// must not: writes a picture outside
+//@SQUARE@
+Print "@OUTSIDE@/mark.pos";

@@ -1,0 +1,3 @@
+// must not: adds to a file outside
+//@SQUARE@
+Printf("gone") >> "@OUTSIDE@/victim.txt";

@@ -1,0 +1,3 @@
+// must not: writes a text outside
+//@SQUARE@
+Printf("gone") > "@OUTSIDE@/victim.txt";

@@ -1,0 +1,6 @@
+// must not: calls itself without end
+//@SQUARE@
+Macro again
+  Call again;
+Return
+Call again;

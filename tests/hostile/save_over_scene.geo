@@ -1,0 +1,4 @@
+// must not: writes over its scene
+//@SQUARE@
+Mesh 2;
+Save "@SCENE@/scene.json";

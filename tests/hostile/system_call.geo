@@ -1,0 +1,4 @@
+// must not: runs a command
+// says: SystemCall
+//@SQUARE@
+SystemCall "touch @OUTSIDE@/mark";
