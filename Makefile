@@ -135,6 +135,12 @@ extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/ex
 hostile-test: | tools  ## geometries from strangers: all are contained and say why
 	cargo test --release --locked --test tests hostile:: -- --nocapture
 
+damage-test: $(MIDPLANE)  ## ten thousand damaged scenes, geometries, meshes, studies and paths, a quarter of an hour
+	python3 pipeline/damage.py $(MIDPLANE) -o results/damage
+
+damage-test-quick: $(MIDPLANE)  ## a few hundred of them
+	python3 pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
+
 kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test
 
@@ -247,4 +253,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

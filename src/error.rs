@@ -152,7 +152,7 @@ impl std::fmt::Display for At {
             write!(f, ":{}", self.line)?;
         }
         if !self.key.is_empty() {
-            write!(f, " {}", self.key)?;
+            write!(f, " {}", short_line(&self.key))?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ mod closure;
 mod common;
 mod law_help;
 
+mod absurd;
 mod agreement;
 mod bad_input;
 mod cantilever;

@@ -10,9 +10,11 @@ const LOBATTO_4: [[f64; 2]; 4] = [
     [0.447_213_595_499_957_9, 5.0 / 6.0],
     [1.0, 1.0 / 6.0],
 ];
-/// An edge's forces are exact to this part of them; parts are halved at most so often.
+/// An edge's forces are exact to this part of them; parts are halved at most so often, and there are at most so many: a formula that
+/// oscillates faster is not followed further.
 const EXACT: f64 = 1e-13;
 const HALVINGS: usize = 40;
+const PARTS: usize = 4096;
 
 /// Points of an edge: shape values, outward normal times dL/dξ · weight. The body lies on the left of the edge.
 fn edge_points(x: &[[f64; 2]; LINE_NODES], shape: Shape) -> impl Iterator<Item = (LineValues, [f64; 2])> {
@@ -79,7 +81,7 @@ pub fn edge_field_force<E>(
     let largest = |force: &NodalForces| force.iter().flatten().map(|f| f.abs()).fold(0.0, f64::max);
     let whole = on(GAUSS_3, -1.0, 1.0)?;
     let (mut force, mut size) = ([[0.0; 2]; LINE_NODES], largest(&whole));
-    let mut todo = vec![(-1.0, 1.0, whole, 0)];
+    let (mut todo, mut parts) = (vec![(-1.0, 1.0, whole, 0)], 1);
     while let Some((from, to, whole, depth)) = todo.pop() {
         let middle = 0.5 * (from + to);
         let halves = [on(GAUSS_3, from, middle)?, on(GAUSS_3, middle, to)?];
@@ -87,8 +89,11 @@ pub fn edge_field_force<E>(
         size = size.max(largest(&both));
         // a formula may have no value at an end
         let ends = on(&LOBATTO_4, from, to).unwrap_or(whole);
-        let off = |other: &NodalForces| largest(&sum(other, &whole.map(|f| f.map(|f| -f)))) > EXACT * size;
-        if depth < HALVINGS && (off(&both) || off(&ends)) {
+        // below the smallest number of full precision there are no such parts
+        let exact = (EXACT * size).max(f64::MIN_POSITIVE);
+        let off = |other: &NodalForces| largest(&sum(other, &whole.map(|f| f.map(|f| -f)))) > exact;
+        if depth < HALVINGS && parts < PARTS && (off(&both) || off(&ends)) {
+            parts += 1;
             todo.push((from, middle, halves[0], depth + 1));
             todo.push((middle, to, halves[1], depth + 1));
         } else {

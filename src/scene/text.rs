@@ -39,11 +39,14 @@ pub fn text_of(file: &Path, help: &str) -> Result<String> {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => {
             Err(refused("it is saved as UTF-16", "save it as UTF-8 (in an editor: Save as, Encoding)"))
         }
-        _ => String::from_utf8(bytes).map_err(|_| {
-            refused(
-                "it has bytes that are no UTF-8 text",
-                "save it as UTF-8 (in an editor: Save as, Encoding)",
-            )
+        _ => String::from_utf8(bytes).map_err(|error| {
+            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = 1 + good.iter().filter(|byte| **byte == b'\n').count();
+            Error::Text {
+                at: Box::new(At { file: file.into(), line, ..At::default() }),
+                what: "it has bytes that are no UTF-8 text".into(),
+                help: "save it as UTF-8 (in an editor: Save as, Encoding)".into(),
+            }
         }),
     }
 }
