@@ -105,6 +105,10 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
         let source = completed(&sources, &geo, &mirror)?;
         let written = gmsh.mesh(&task, &source, &mirror, folder.path())?;
         let bytes = std::fs::read(&written).map_err(Error::io("read", &written))?;
+        if is_half(&bytes) {
+            let what = "gmsh has written half of it: was the disk full?";
+            return Err(Error::io("write the mesh to", &cache)(std::io::Error::other(what)));
+        }
         from_bytes(&job.geo, &bytes)?;
         Ok((written, hex(&Sha256::digest(&bytes))))
     };
@@ -115,6 +119,13 @@ fn mesh_one(gmsh: &Gmsh, cache: &Path, job: &Job) -> Result<Meshed> {
     write_whole(&sum, format!("{digits}  {name}\n").as_bytes())?;
     std::fs::rename(&written, &path).map_err(Error::io("write", &path))?;
     Ok(Meshed { path, reused: false })
+}
+
+/// True for a mesh file that begins as one and has no end. gmsh, which does not say when it cannot write, leaves such.
+fn is_half(bytes: &[u8]) -> bool {
+    let begins = bytes.starts_with(b"$MeshFormat") || bytes.is_empty();
+    let end = &bytes[bytes.len().saturating_sub(64)..];
+    begins && !end.windows(4).any(|word| word == b"$End")
 }
 
 /// The file beside a mesh that holds its SHA-256, as `sha256sum -c` reads it.
