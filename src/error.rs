@@ -83,7 +83,7 @@ pub enum Error {
     Stopped {
         /// Number of the signal.
         signal: u8,
-        /// What is on disk, and how to go on.
+        /// Results on disk, and the way to go on.
         kept: String,
     },
     /// A results folder that cannot be used.
@@ -91,7 +91,7 @@ pub enum Error {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// What is the matter with it.
+        /// The fault.
         what: String,
         /// The remedy.
         help: String,

@@ -2,20 +2,10 @@
 //! short message with its place, at once, whatever stands in a file.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
-use crate::common::squares::{SCENE, changed, midplane, structured, write};
-
-fn squares(scene: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), &structured(3), &structured(5), scene);
-    folder
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use crate::common::squares::{SCENE, changed, midplane, said, squares};
 
 /// Asserts that arguments are refused at once, in a few lines that have these words.
 #[track_caller]

@@ -3,23 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 
-use crate::common::squares::{SCENE, changed, midplane, structured, write};
-
-/// Two squares in a folder.
-fn squares(scene: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), &structured(3), &structured(5), scene);
-    folder
-}
+use crate::common::squares::{SCENE, changed, midplane, said, squares};
 
 fn increments(n: usize) -> String {
     changed(SCENE, "\"fix\"", &format!("\"increments\": {n}, \"fix\""))
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// The files of a folder with their bytes.
@@ -114,6 +103,13 @@ fn a_link_within_the_folder_is_told_and_what_it_leads_to_stays() {
     assert_eq!(refused.status.code(), Some(4), "{}", said(&refused));
     assert!(said(&refused).contains("fields is a link to another folder"), "{}", said(&refused));
     assert_eq!(contents(&folder.path().join("other")), other);
+    std::fs::create_dir(folder.path().join("mine")).unwrap();
+    std::fs::write(folder.path().join("mine/manifest"), "midplane results of other\nnotes.txt\n").unwrap();
+    std::fs::write(folder.path().join("mine/notes.txt"), "mine").unwrap();
+    std::os::unix::fs::symlink("../mine", folder.path().join("other/check")).unwrap();
+    let refused = midplane(folder.path(), &["check", ".", "-o", "other", "--plot"]);
+    assert_eq!(refused.status.code(), Some(4), "{}", said(&refused));
+    assert_eq!(std::fs::read_to_string(folder.path().join("mine/notes.txt")).unwrap(), "mine");
     // the results folder itself may be one
     std::os::unix::fs::symlink("other", folder.path().join("link")).unwrap();
     assert!(midplane(folder.path(), &["run", ".", "-o", "link"]).status.success());

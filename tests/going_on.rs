@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use crate::common::squares::{SCENE, changed, midplane, structured, write};
+use crate::common::squares::{SCENE, changed, midplane, said, squares};
 
 /// Two squares that a crack parts, pressed, sheared along a path, and let go.
 const STEPS: &str = r#""steps": [
@@ -23,16 +23,6 @@ fn cracking(fields: &str, control: &str) -> String {
     let scene = changed(&scene, "\"output\": {", &format!("\"output\": {{ \"fields\": \"{fields}\","));
     let scene = changed(&scene, "1e7, \"tangential_stiffness\": 1e7", "1e6, \"tangential_stiffness\": 1e6");
     changed(&scene, "\"elastic\"", law)
-}
-
-fn squares(scene: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), &structured(3), &structured(5), scene);
-    folder
-}
-
-fn said(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 fn run(folder: &Path, out: &str, more: &[&str]) -> Output {

@@ -54,10 +54,11 @@ impl Stage {
         Stage { root }
     }
 
-    fn run(&self) -> Output {
+    fn run(&self, more: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_midplane"))
             .current_dir(self.root.path().join("scene"))
             .args(["run", ".", "-o", "../out", "--gmsh-limit", "5", "--gmsh-memory", "1"])
+            .args(more)
             .env("SECRET_KEY", SECRET)
             .env("HOME", self.root.path().join("outside/home"))
             .output()
@@ -106,7 +107,7 @@ fn left_in(folder: &Path) -> Vec<String> {
 fn fault(name: &str, geo: &[u8]) -> Option<String> {
     let stage = Stage::new(geo);
     let (before, begun) = (stage.all(), Instant::now());
-    let output = stage.run();
+    let output = stage.run(&[]);
     let took = begun.elapsed();
     let said = [&output.stdout[..], &output.stderr].concat();
     let text = String::from_utf8_lossy(&said).into_owned();
@@ -170,6 +171,34 @@ fn every_hostile_geometry_is_contained_and_says_why() {
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
 }
 
+/// Without confinement they do what they say: what keeps them from it is seen to be missing.
+#[test]
+fn a_geometry_that_is_trusted_does_what_it_says() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hostile");
+    for name in [
+        "print",
+        "save_over_scene",
+        "printf_append",
+        "create_dir",
+        "view_save",
+        "system_call",
+        "merged_command",
+    ] {
+        let stage = Stage::new(&std::fs::read(folder.join(format!("{name}.geo"))).unwrap());
+        let before = stage.all();
+        stage.run(&["--trust-geo"]);
+        let mut after = stage.all();
+        after.retain(|path, _| !path.display().to_string().contains(".fltk")); // gmsh itself, at home
+        assert!(before != after, "{name} does nothing");
+    }
+    for name in ["include_outside", "include_computed", "merge_outside", "get_env"] {
+        let stage = Stage::new(&std::fs::read(folder.join(format!("{name}.geo"))).unwrap());
+        let output = stage.run(&["--trust-geo"]);
+        let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
+        assert!(text.contains(SECRET), "{name} tells nothing: {text}");
+    }
+}
+
 #[test]
 fn ordinary_geometries_work_as_before() {
     let square = structured(3).replace('@', "0");
@@ -182,14 +211,14 @@ fn ordinary_geometries_work_as_before() {
     ] {
         let stage = Stage::new(format!("{more}\n{square}").as_bytes());
         std::fs::write(stage.root.path().join("scene/inside/sizes.geo"), "h = 1;\n").unwrap();
-        let output = stage.run();
+        let output = stage.run(&[]);
         assert!(output.status.success(), "{more}: {}", String::from_utf8_lossy(&output.stderr));
     }
     // a folder outside, listed; and a geometry that is trusted
     let secret = "Include \"@OUTSIDE@/sizes.geo\";\n//@SQUARE@\n";
     let stage = Stage::new(secret.as_bytes());
     std::fs::write(stage.root.path().join("outside/sizes.geo"), "h = 1;\n").unwrap();
-    assert_eq!(stage.run().status.code(), Some(2));
+    assert_eq!(stage.run(&[]).status.code(), Some(2));
     for more in [&["--geo-path", "../outside"][..], &["--trust-geo"]] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
         command.current_dir(stage.root.path().join("scene")).args(["run", ".", "-o", "../out"]).args(more);

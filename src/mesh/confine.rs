@@ -39,7 +39,7 @@ pub(super) const SYSTEM: [&str; 16] = [
 /// Variables of the environment that the mesher inherits.
 const ENVIRONMENT: [&str; 4] = ["LD_LIBRARY_PATH", "OMP_NUM_THREADS", "VIRTUAL_ENV", "TZ"];
 
-/// What the mesher may do.
+/// Rights of the mesher.
 #[derive(Debug)]
 pub(super) struct Confinement<'a> {
     /// The folder in which it works and writes.

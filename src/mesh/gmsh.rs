@@ -3,11 +3,12 @@
 use std::ffi::OsString;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::confine::Confinement;
+use super::watch::{exceeded, in_its_own_group, kill_group, memory, wait};
 use super::{log, program};
 use crate::error::{Error, Result, Stop};
 
@@ -69,11 +70,8 @@ General.NumThreads = 1;
 Mesh.MaxNumThreads1D = 1;
 Mesh.MaxNumThreads2D = 1;
 ";
-/// The output of a run, and its largest size [bytes].
+/// File of the output of a run.
 const LOG: &str = "gmsh.log";
-const LONGEST_LOG: u64 = 64 << 20;
-/// Largest delay in noticing the end of gmsh.
-const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 
 impl Default for Gmsh {
     fn default() -> Gmsh {
@@ -162,7 +160,7 @@ impl Gmsh {
         let ended = self.start(here, folder, self.readable(file), &arguments);
         let mut ended = ended.map_err(|error| of_file(file, error))?;
         let mirror = mirror.display().to_string();
-        if let Some(end) = limits(&ended, folder) {
+        if let Some(end) = exceeded(ended.status, &folder.join(LOG)) {
             return Err(of_file(file, self.broken(end, "is it a geometry that ends?")));
         }
         ended.lines.iter_mut().for_each(|line| *line = line.replace(&mirror, ""));
@@ -255,69 +253,6 @@ impl Gmsh {
 
     fn broken(&self, what: String, help: &str) -> Error {
         Error::Program { program: self.program.display().to_string(), what, help: help.into() }
-    }
-}
-
-/// Whatever a mesher starts belongs to its group and ends with it.
-#[cfg(unix)]
-fn in_its_own_group(command: &mut Command) {
-    use std::os::unix::process::CommandExt;
-    command.process_group(0);
-}
-
-#[cfg(not(unix))]
-fn in_its_own_group(_: &mut Command) {}
-
-/// Kills the mesher and what it has started; one that has `ended` is there no more.
-fn kill_group(child: &mut Child, ended: bool) {
-    #[cfg(unix)]
-    if let Some(group) = i32::try_from(child.id()).ok().and_then(rustix::process::Pid::from_raw) {
-        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
-    }
-    if !ended {
-        let _ = child.kill();
-    }
-}
-
-/// The limit that ended a run, if one did: the size of a file, or that of its output.
-fn limits(ended: &Ended, folder: &Path) -> Option<String> {
-    let printed = std::fs::metadata(folder.join(LOG)).map_or(0, |log| log.len());
-    if printed > LONGEST_LOG {
-        return Some(format!("had printed {} MB and was stopped", printed >> 20));
-    }
-    (log::signal(ended.status) == Some(log::FILE_SIZE)).then(|| "wrote a file without end".into())
-}
-
-/// Memory for one run: three quarters of all, where the system tells [bytes].
-#[cfg(target_os = "linux")]
-fn memory() -> u64 {
-    let system = rustix::system::sysinfo();
-    (system.totalram as u64).saturating_mul(system.mem_unit.into()) / 4 * 3
-}
-
-#[cfg(not(target_os = "linux"))]
-fn memory() -> u64 {
-    u64::MAX
-}
-
-/// The exit status, or nothing if `limit` passes first or somebody wants it to stop. Asks now and then: a signal handler would concern all threads.
-fn wait(child: &mut Child, limit: Duration, stop: &Stop, log: &Path) -> std::io::Result<Option<ExitStatus>> {
-    let start = Instant::now();
-    let mut pause = Duration::from_millis(1);
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(Some(status));
-        }
-        if stop.requested().is_some() {
-            return Ok(None);
-        }
-        if std::fs::metadata(log).is_ok_and(|log| log.len() > LONGEST_LOG) {
-            kill_group(child, false);
-            return child.wait().map(Some);
-        }
-        let Some(left) = limit.checked_sub(start.elapsed()) else { return Ok(None) };
-        std::thread::sleep(pause.min(left));
-        pause = (2 * pause).min(LONGEST_PAUSE);
     }
 }
 

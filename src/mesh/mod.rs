@@ -26,6 +26,7 @@ mod quality;
 mod read;
 mod sources;
 mod touch;
+mod watch;
 
 use std::path::PathBuf;
 

@@ -36,6 +36,10 @@ pub fn write_geometry(folder: &Path, name: &str, model: &Model) -> Result<PathBu
     let parts = model.subdomains.iter().map(|subdomain| &subdomain.name);
     let all = parts.chain(model.interfaces.iter().map(|interface| &interface.name));
     let files: Vec<String> = all.map(|name| format!("{name}.vtu")).collect();
+    if folder.is_symlink() {
+        let help = "make the results folder itself the link";
+        return Err(Error::folder(folder, "it is a link to another folder", help));
+    }
     let earlier = Listing::read(folder)?;
     check_free(folder, earlier.as_ref(), &files, &[])?;
     if let Some(earlier) = earlier {

@@ -25,10 +25,30 @@ pub struct TextLength {
     checksum: u32,
 }
 
-impl TextLength {
-    /// Of a text of so many bytes that were hashed.
-    pub(super) fn new(bytes: u64, hasher: Hasher) -> TextLength {
-        TextLength { bytes, checksum: hasher.finalize() }
+/// The length of a text that grows, kept up to date.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Measured {
+    pub(super) bytes: u64,
+    hasher: Hasher,
+}
+
+impl Measured {
+    /// The length of a text.
+    pub(super) fn of(text: &str) -> Measured {
+        let mut measured = Measured::default();
+        measured.add(text);
+        measured
+    }
+
+    /// Counts what was added.
+    pub(super) fn add(&mut self, text: &str) {
+        self.bytes += text.len() as u64;
+        self.hasher.update(text.as_bytes());
+    }
+
+    /// The length so far.
+    pub(super) fn length(&self) -> TextLength {
+        TextLength { bytes: self.bytes, checksum: self.hasher.clone().finalize() }
     }
 }
 
@@ -38,9 +58,8 @@ pub(super) struct Growing {
     path: PathBuf,
     /// The end that every state of the text has, such as closing tags.
     end: &'static str,
-    /// Bytes without the end.
-    bytes: u64,
-    hasher: Hasher,
+    /// Its length without the end.
+    measured: Measured,
     file: File,
     /// The copy, once something was added, and the text that it lacks.
     hidden: Option<File>,
@@ -52,10 +71,8 @@ impl Growing {
     pub(super) fn create(path: &Path, text: &str, end: &'static str) -> Result<Growing> {
         write_whole(path, format!("{text}{end}").as_bytes())?;
         let file = open(path)?;
-        let mut hasher = Hasher::new();
-        hasher.update(text.as_bytes());
-        let (bytes, lacks) = (text.len() as u64, String::new());
-        Ok(Growing { path: path.into(), end, bytes, hasher, file, hidden: None, lacks })
+        let (measured, hidden, lacks) = (Measured::of(text), None, String::new());
+        Ok(Growing { path: path.into(), end, measured, file, hidden, lacks })
     }
 
     /// Goes back to a length that the text has had.
@@ -82,7 +99,7 @@ impl Growing {
                 File::options().read(true).write(true).open(&hidden)?
             }
         };
-        let start = self.bytes - self.lacks.len() as u64;
+        let start = self.measured.bytes - self.lacks.len() as u64;
         copy.seek(SeekFrom::Start(start))?;
         copy.write_all(format!("{}{text}{}", self.lacks, self.end).as_bytes())?;
         // where there are no links the next addition copies it anew
@@ -95,14 +112,13 @@ impl Growing {
             self.hidden = Some(before);
             self.lacks = text.into();
         }
-        self.bytes += text.len() as u64;
-        self.hasher.update(text.as_bytes());
+        self.measured.add(text);
         Ok(())
     }
 
     /// Its length so far.
     pub(super) fn length(&self) -> TextLength {
-        TextLength::new(self.bytes, self.hasher.clone())
+        self.measured.length()
     }
 
     /// The same file in another folder, into which it is about to be moved.

@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
-use super::growing::{TextLength, beginning, changed};
+use super::growing::{Measured, TextLength, beginning, changed};
 use crate::error::{Error, Result};
 use crate::files::write_whole;
 
@@ -20,8 +20,7 @@ const HEAD: &str = "midplane results of ";
 pub(super) struct Manifest {
     path: PathBuf,
     file: File,
-    bytes: u64,
-    hasher: crc32fast::Hasher,
+    measured: Measured,
 }
 
 impl Manifest {
@@ -35,9 +34,7 @@ impl Manifest {
         let path = folder.join(MANIFEST);
         write_whole(&path, text.as_bytes())?;
         let file = File::options().append(true).open(&path).map_err(Error::io("write", &path))?;
-        let mut hasher = crc32fast::Hasher::new();
-        hasher.update(text.as_bytes());
-        Ok(Manifest { path, file, bytes: text.len() as u64, hasher })
+        Ok(Manifest { path, file, measured: Measured::of(text) })
     }
 
     /// Goes back to a length that it has had: files that were listed later are removed.
@@ -55,17 +52,16 @@ impl Manifest {
         let text: String = files.into_iter().flat_map(|file| [file, "\n"]).collect();
         if let Err(error) = self.file.write_all(text.as_bytes()) {
             // a line that is not whole does not count; nothing more can be done where the disk is full
-            let _ = self.file.set_len(self.bytes);
+            let _ = self.file.set_len(self.measured.bytes);
             return Err(Error::io("write", &self.path)(error));
         }
-        self.bytes += text.len() as u64;
-        self.hasher.update(text.as_bytes());
+        self.measured.add(&text);
         Ok(())
     }
 
     /// Its length so far.
     pub(super) fn length(&self) -> TextLength {
-        TextLength::new(self.bytes, self.hasher.clone())
+        self.measured.length()
     }
 
     /// The same file in another folder, into which it was moved.

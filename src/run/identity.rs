@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::problem::Problem;
 use crate::scene::Scene;
 
-/// What a checkpoint belongs to.
+/// Scene, meshes and version of a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Identity {
     version: String,
@@ -25,7 +25,7 @@ pub(super) struct Identity {
 }
 
 impl Identity {
-    /// Of a run, before its first increment.
+    /// The identity of a run, before its first increment.
     pub(super) fn new(scene: &Scene, problem: &Problem) -> Identity {
         let mut scene = serde_json::to_value(scene).unwrap_or_default();
         if let Some(keys) = scene.as_object_mut() {

@@ -1,4 +1,4 @@
-//! When checkpoints are written: after so much time or so many increments, at the ends of steps, and when a run ends early.
+//! The times of checkpoints: after so much time or so many increments, at the ends of steps, and where a run ends early.
 //!
 //! The state after an increment is kept in memory, so that a run that ends in the middle of the next one can write it: after every
 //! increment, or as often as a small part of the time allows.
@@ -14,7 +14,7 @@ use crate::history::{History, Increment};
 use crate::problem::Problem;
 use crate::scene::Fields;
 
-/// How often a checkpoint is written, beside the ends of steps.
+/// Interval between checkpoints, beside the ends of steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Every {
     /// After so many seconds.
@@ -33,7 +33,7 @@ const LITTLE: f64 = 0.002;
 #[derive(Debug)]
 pub(super) struct Keeper {
     every: Every,
-    /// What the checkpoints belong to, as JSON.
+    /// The identity of the run, as JSON.
     identity: Vec<u8>,
     /// The ends of all steps are kept, not of the last two only.
     all_steps: bool,

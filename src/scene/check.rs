@@ -4,8 +4,9 @@ use super::named::{check_group, check_name};
 use super::{Gravity, Plane, Scene, Step, Subdomain, Variable, split_group};
 use crate::error::{Result, name_help};
 
-/// Most increments of a step.
+/// Most increments of a step, and the least that a row of the history takes [bytes].
 const MOST_INCREMENTS: usize = 100_000_000;
+const ROW: f64 = 60.0;
 
 impl Scene {
     /// Refuses the first thing that is wrong, with its line and key.
@@ -151,7 +152,11 @@ impl Scene {
             return Err(self.source.error_at(&path, "a step of 0 increments", "give 1 or more"));
         }
         if step.increments > MOST_INCREMENTS {
-            let what = format!("{} increments, history.csv alone would take 100 GB or more", step.increments);
+            let gigabytes = step.increments as f64 * ROW / 1e9;
+            let what = format!(
+                "{} increments, for which history.csv alone takes {gigabytes:.0} GB or more",
+                step.increments
+            );
             let help = format!("give {MOST_INCREMENTS} at most");
             return Err(self.source.error_at(&["steps", index, "increments"], what, help));
         }

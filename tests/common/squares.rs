@@ -82,3 +82,15 @@ pub fn assert_shortened(folder: &Path, what: &str) {
     let exact = -10.0 * (2.0 / 1e4 + 1.0 / 1e7);
     assert!((top / exact - 1.0).abs() < 1e-10, "{what}: {top}, exact {exact}");
 }
+
+/// A folder with the two squares and this scene.
+pub fn squares(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &structured(3), &structured(5), scene);
+    folder
+}
+
+/// The program's words on standard error.
+pub fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
