@@ -76,7 +76,6 @@ impl<'a> History<'a> {
                 let ramp = start.ramp()?;
                 let follows = matches!(position.phase, Phase::Path(_));
                 load::prepare(&mut analysis, step, &start, ramp.as_ref(), follows);
-                analysis.engine.catch_up(analysis.state.at.1);
                 loads = Some((start, ramp));
             }
         }

@@ -201,13 +201,6 @@ impl<F: Factored> Engine for LinearEngine<'_, F> {
 
     fn restore(&mut self, _: Search) {}
 
-    fn catch_up(&mut self, load_factor: f64) {
-        // both ends together, as they were found: two solves at a time round in another way than one
-        if let (Some((_, factored)), Some(ends)) = (&self.factored, &mut self.ends) {
-            ends.at(factored, self.interfaces, load_factor, false);
-        }
-    }
-
     fn begin_viscous(&mut self) -> Search {
         Search::default()
     }

@@ -189,9 +189,6 @@ pub(in crate::history) trait Engine {
     /// Returns to where the search stood.
     fn restore(&mut self, search: Search);
 
-    /// Makes up for what was found in a step before an interruption, up to a load factor.
-    fn catch_up(&mut self, _load_factor: f64) {}
-
     /// State of the search before viscous steps, in which friction does not lag at first.
     fn begin_viscous(&mut self) -> Search;
 
