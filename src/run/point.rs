@@ -6,7 +6,7 @@ use super::presets::read_scene;
 use crate::error::{At, Error, Result, name_help};
 use crate::law::path::{self, PathError, PathRow};
 use crate::law::{Integration, Law, Local};
-use crate::scene::{Variable, text_of};
+use crate::scene::{Scene, Variable, text_of};
 
 /// The law, rows of a path, and the error that ended it early, if one did.
 pub type Driven = (Law, Vec<PathRow>, Option<Error>);
@@ -20,6 +20,18 @@ pub fn drive(
     integration: Option<Integration>,
 ) -> Result<Driven> {
     let scene = read_scene(scene, settings)?;
+    let text = text_of(path, "give the file of a path")?;
+    drive_text(&scene, name, path, &text, integration)
+}
+
+/// The same for a scene that is read and the text of a path; `path` is for messages.
+pub fn drive_text(
+    scene: &Scene,
+    name: &str,
+    path: &Path,
+    text: &str,
+    integration: Option<Integration>,
+) -> Result<Driven> {
     let Some(interface) = scene.interfaces.get(name) else {
         let help = name_help(name, scene.interfaces.keys().map(String::as_str));
         return Err(scene.source.error_at(&["interfaces"], format!("no interface \"{name}\""), help));
@@ -49,8 +61,7 @@ pub fn drive(
         .and_then(|start| law.damaged(start, damage))
         .map_err(|law| scene.source.error_at(&["interfaces", name, law.key], law.what, law.help))?;
     let integration = integration.unwrap_or(Integration::Tolerance(interface.law_tolerance));
-    let text = text_of(path, "give the file of a path")?;
-    let program: path::LawPath = serde_json::from_str(&text).map_err(|error| {
+    let program: path::LawPath = serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let what = message.split(" at line ").next().unwrap_or(&message);
         let help = "a path holds \"program\": segments with \"n\", \"t\" and \"points\"";

@@ -38,7 +38,11 @@ const MOST_REPEATS: usize = 10_000;
 impl StudyPlan {
     /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
     pub fn read(file: &Path, only: Option<usize>) -> Result<StudyPlan> {
-        let text = text_of(file, "give the file of a study")?;
+        StudyPlan::parse(file, text_of(file, "give the file of a study")?, only)
+    }
+
+    /// The same for the text of a study; `file` is for messages and for the scene it names.
+    pub fn parse(file: &Path, text: String, only: Option<usize>) -> Result<StudyPlan> {
         let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
         let scene = source.folder().join(&study.scene);
         if !scene.exists() {

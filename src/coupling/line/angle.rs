@@ -20,6 +20,8 @@ const SHARPER: f64 = 2.0;
 const STRAIGHT: f64 = 1e-6;
 /// At a point of the geometry so sharp a turn is a kink whatever its neighbours do [rad].
 const SHARP: f64 = 1.0;
+/// So sharp a turn is a kink whatever is known: no curve has it [rad].
+const FOLD: f64 = 2.2;
 /// Least turn of a kink if the points of the geometry are not known [rad].
 const PLAIN: f64 = 0.3;
 /// An edge this much shorter than its neighbour has no direction of its own: rounding turns it.
@@ -161,6 +163,9 @@ fn turns(own: &[[f64; 3]], edges: &[usize], closed: bool) -> Vec<f64> {
 fn is_kink(chain: &Chain, edges: &[usize], turns: &[f64], i: usize, closed: bool) -> bool {
     let n = edges.len();
     let turn = turns[i].abs();
+    if turn > FOLD {
+        return true;
+    }
     let limit = match chain.corners[chain.ends[edges[i]][0]] {
         Corner::No => return false,
         Corner::Yes if turn > SHARP => return true,

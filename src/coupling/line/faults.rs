@@ -39,6 +39,12 @@ pub(in crate::coupling) fn same_side(name: &str, sides: [&[Side]; 2]) -> Error {
     error_at(name, what, FACE)
 }
 
+/// A side turns away from the other on its way.
+pub(in crate::coupling) fn turned(name: &str, sides: [&[Side]; 2], [x, y]: [f64; 2]) -> Error {
+    let what = format!("{} turn away from each other near ({x:.6}, {y:.6})", both(sides));
+    error_at(name, what, "their directions differ by a right angle at most; end one of the curves there")
+}
+
 /// No part lies on the other side: the sides lie beside each other.
 pub(in crate::coupling) fn nothing_common(name: &str, sides: [&[Side]; 2], c: &LineMidplane) -> Error {
     // the lines start and end where the sides come closest

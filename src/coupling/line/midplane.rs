@@ -52,6 +52,8 @@ pub struct MidplanePoint {
     pub gap: f64,
     /// Length of C per η [length].
     pub speed: f64,
+    /// Cosine of half the angle between the directions of both sides.
+    pub facing: f64,
 }
 
 impl LineMidplane {
@@ -61,7 +63,8 @@ impl LineMidplane {
         let (xi_a, xi_b, along) = self.along(g, eta);
         let (x_a, x_b) = (self.a.point(g.edge_a, xi_a), self.b.point(g.edge_b, xi_b));
         let [a, b] = &self.angles;
-        let tangent = unit(plus(a.tangent(g.edge_a, xi_a), b.tangent(g.edge_b, xi_b)));
+        let both = plus(a.tangent(g.edge_a, xi_a), b.tangent(g.edge_b, xi_b));
+        let tangent = unit(both);
         let normal = [-tangent[1], tangent[0]];
         MidplanePoint {
             xi_a,
@@ -70,6 +73,7 @@ impl LineMidplane {
             rotation: [normal, tangent],
             gap: dot(minus(x_b, x_a), normal),
             speed: norm(along),
+            facing: 0.5 * norm(both),
         }
     }
 

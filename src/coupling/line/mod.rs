@@ -10,6 +10,7 @@ mod link;
 mod midplane;
 mod pair;
 mod parts;
+mod regular;
 mod seam;
 mod segment;
 mod slaved;

@@ -9,7 +9,7 @@ use super::angle::Angles;
 use super::link::Orientation;
 use super::pair::{Face, starts, walk};
 use super::segment::{CommonStretch, FACING, LinePoint, Segment};
-use super::{Chain, Gap, LineMidplane, Side, faults, seam};
+use super::{Chain, Gap, LineMidplane, Side, faults, regular, seam};
 use crate::error::Result;
 use crate::shape::vector::*;
 
@@ -19,6 +19,8 @@ const OPEN: f64 = 0.25;
 const POINT: f64 = 3e-7;
 /// A common part shorter than this many times its gap is a corner seen from the side.
 const CORNER: f64 = 4.0;
+/// Sides face each other up to a right angle between their directions: the cosine of half of it.
+const TURNED: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Nodes of A and B closer than this are one. Of the shorter line.
 const SLIVER: f64 = 1e-13;
 /// Nodes closer than this many units in the last place of their coordinates are one.
@@ -36,6 +38,7 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Li
     };
     let (a, b) = rayon::join(|| order(side_a, Orientation::Right), || order(side_b, Orientation::Left));
     let ((a, angles_a), (b, angles_b)): ((Chain, Angles), (Chain, Angles)) = (a?, b?);
+    regular::check(name, sides, [&a, &b], origin)?;
     let angles = [angles_a, angles_b];
     let kink = angles[0].sharpest.max(angles[1].sharpest);
     let mut c = LineMidplane {
@@ -62,6 +65,9 @@ pub fn join(name: &str, side_a: &[Side], side_b: &[Side], gap: Gap) -> Result<Li
     }
     if let Some(part) = near.iter().find(|part| part.worst.0 > 0.0 || part.worst.0.is_nan()) {
         return Err(faults::apart(name, sides, part));
+    }
+    if let Some(place) = near.iter().find_map(|part| part.turned) {
+        return Err(faults::turned(name, sides, place));
     }
     assemble(&mut c, near);
     seam::turn_closed(&mut c);
@@ -135,6 +141,7 @@ fn measure(
         gap: [f64::INFINITY, f64::NEG_INFINITY],
         apart: 0.0,
         worst: (f64::NEG_INFINITY, 0.0, [0.0; 2]),
+        turned: None,
         touches: false,
     };
     for i in 0..c.segments.len() {
@@ -154,6 +161,9 @@ fn measure(
             let beyond = spot.gap.abs() - share * shorter - curved;
             part.apart = part.apart.max(spot.gap.abs() - curved);
             part.touches |= beyond <= 0.0;
+            if spot.facing.is_nan() || spot.facing < TURNED {
+                part.turned = Some(spot.position);
+            }
             if beyond > part.worst.0 || beyond.is_nan() {
                 part.worst = (beyond, spot.gap, spot.position);
             }

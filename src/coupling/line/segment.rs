@@ -40,6 +40,8 @@ pub(in crate::coupling) struct CommonStretch {
     pub apart: f64,
     /// The worst place: by how much its distance exceeds what is allowed, the distance, and where.
     pub worst: (f64, f64, [f64; 2]),
+    /// A place where one side turns away from the other.
+    pub turned: Option<[f64; 2]>,
     /// True if the sides lie on each other somewhere.
     pub touches: bool,
 }
