@@ -157,6 +157,9 @@ const JOINT: f64 = 1e-9;
 const SHORTEST: f64 = 1e-7;
 /// Local errors below this part of the cohesion are rounding.
 const ROUNDING: f64 = 1e-11;
+/// And those below so many units in the last place of the elastic traction of the whole jump: where it is an unknown, no
+/// traction is met more closely.
+const LAST_PLACES: f64 = 8.0;
 
 /// Drives a point of `law` from `start` (the interface's initial state) along a path; the first row is the start.
 pub fn drive(
@@ -265,6 +268,13 @@ impl PathSegment {
     }
 }
 
+/// Rounding of the jump as a traction [stress].
+fn rounding(law: &Law, state: &State) -> f64 {
+    let elastic = law.elastic_stiffness().into_iter().zip(state.jump.iter());
+    let largest = elastic.map(|(stiffness, jump)| stiffness * jump.abs()).fold(0.0, f64::max);
+    LAST_PLACES * f64::EPSILON * largest
+}
+
 /// From one row to the next; `length` is the division under stress control, kept from row to row.
 fn between_rows(
     law: &Law,
@@ -300,7 +310,7 @@ fn between_rows(
         let whole = go(&state, end);
         let halves = go(&state, 0.5 * (done + end)).and_then(|middle| go(&middle, end));
         let ratio = match (&whole, &halves) {
-            (Ok(whole), Ok(halves)) => law.misfit(whole, halves) / bound,
+            (Ok(whole), Ok(halves)) => law.misfit(whole, halves) / bound.max(rounding(law, halves)),
             _ => f64::INFINITY,
         };
         let shortest = part <= SHORTEST;

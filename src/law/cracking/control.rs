@@ -19,7 +19,7 @@ const LOCAL: f64 = 5.0;
 const FIRST_LENGTH: f64 = 4.0;
 /// Tolerances below this are rounding.
 const SMALLEST_TOLERANCE: f64 = 1e-14;
-/// Rounding of a step's difference, relative to the tractions in it.
+/// Rounding of a step's difference, relative to the tractions and to the work in it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A new length aims at this much less than the bound allows.
 const SAFETY: f64 = 0.85;
@@ -122,7 +122,8 @@ impl ErrorControl {
             let strength = (whole.work - step.end.work).abs() * surface.loss();
             let rounding = ROUNDING * from.traction.amax().max(step.end.traction.amax())
                 + rounding_near_vertex(surface, &step.end);
-            let ratio = misfit.max(strength) / self.bound.max(rounding);
+            let rounding_of_work = ROUNDING * step.end.work * surface.loss();
+            let ratio = (misfit / self.bound.max(rounding)).max(strength / self.bound.max(rounding_of_work));
             let change = (step.end.traction - from.traction).amax();
             let across = is_across_event(surface, from, &step);
             if length <= self.shortest {
