@@ -4,7 +4,10 @@
 //! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
 
 use crate::law_help::{EXAMPLE_2, Random, close};
-use midplane::law::{Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, PointLaw, State, WORK};
+use midplane::law::path::{ComponentControl, Controlled, LawPath, PathError, PathSegment, drive};
+use midplane::law::{
+    Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, PointLaw, State, Unloading, WORK,
+};
 
 fn refused(law: &Cracking, key: &str, parts: &[&str]) {
     let Inadmissible { key: blamed, what, help } = law.check().unwrap_err();
@@ -237,4 +240,41 @@ fn parameters_that_are_no_numbers_are_refused_by_name() {
         &["0.8785"],
     );
     refused(&Cracking { alpha_cohesion: f64::NAN, ..EXAMPLE_2 }, "alpha_cohesion", &[]);
+}
+
+#[test]
+fn work_of_many_times_g_i_is_resolved_at_a_tight_tolerance() {
+    // the rounding of W counts c/G_I times: below it no sub-step is short enough
+    let law = Cracking { fracture_energy_i: 2e-4, fracture_energy_iia: 1.002, ..EXAMPLE_2 };
+    let (n, mut state) = (-5.0 / law.normal_stiffness, State::default());
+    for t in [0.0, 0.1, 8.0] {
+        let law = Law::Cracking(law);
+        state = law.respond(Local::new(n, t, 0.0), &state, Integration::Tolerance(1e-9)).unwrap().state;
+    }
+    close(state.traction.y, law.tan_friction * 5.0, 1e-7, "friction");
+    close(state.own[WORK], law.fracture_energy_iia, 1e-9, "work");
+}
+
+#[test]
+fn a_way_that_cannot_be_resolved_ends_and_says_so() {
+    // so brittle under shear that it snaps, and so dilatant that the jump along n runs away
+    let law = Cracking {
+        tangential_stiffness: 9e7,
+        normal_stiffness: 1.7e5,
+        tensile_strength: 3.0,
+        cohesion: 4400.0,
+        tan_friction: 1.36,
+        tan_friction_residual: Some(0.68),
+        fracture_energy_i: 2.6e-4,
+        fracture_energy_iia: 3e-3,
+        dilatancy_stress: 10.0,
+        unloading: Unloading::Plastic,
+        ..EXAMPLE_2
+    };
+    let way = |control, end| ComponentControl { control, start: 0.0, end };
+    let (n, t) = (way(Controlled::Stress, -7.5), way(Controlled::Displacement, -2.0));
+    let path = LawPath { program: vec![PathSegment { n, t, points: 4 }], initial: None };
+    let driven = drive(&Law::Cracking(law), &path, &State::default(), Integration::Tolerance(1e-4));
+    let Err(PathError::NoEquilibrium { reason, .. }) = driven else { panic!("{driven:?}") };
+    assert!(reason.contains("more points"), "{reason}");
 }

@@ -155,6 +155,9 @@ pub fn columns(law: &Law) -> String {
 const JOINT: f64 = 1e-9;
 /// A way under stress control is not divided below this part of the distance between two rows.
 const SHORTEST: f64 = 1e-7;
+/// Divisions of the way between two rows before it is given up, and per 1/√ε: a smooth way takes a tenth of them.
+const DIVISIONS: f64 = 1000.0;
+const DIVISIONS_BY_ROOT: f64 = 1.0;
 /// Local errors below this part of the cohesion are rounding.
 const ROUNDING: f64 = 1e-11;
 /// And those below so many units in the last place of the elastic traction of the whole jump: where it is an unknown, no
@@ -284,8 +287,10 @@ fn between_rows(
     length: &mut f64,
 ) -> Result<State, (f64, String)> {
     let straight = at(1.0).iter().all(|target| matches!(target, Prescribed::Jump(_)));
-    let bound = match integration {
-        Integration::Tolerance(tolerance) if !straight => law.local_bound(tolerance),
+    let controlled = match integration {
+        Integration::Tolerance(tolerance) if !straight => {
+            law.local_bound(tolerance).map(|bound| (bound, tolerance))
+        }
         Integration::BackwardEuler(steps) if !straight && law.is_integrated() => {
             let mut state = *from;
             for step in 1..=steps.max(1) {
@@ -297,13 +302,16 @@ fn between_rows(
         }
         _ => None,
     };
-    let Some(bound) = bound else {
+    let Some((bound, tolerance)) = controlled else {
         return balance(law, from, at(1.0), integration).map_err(|reason| (1.0, reason));
     };
     let bound = bound.max(ROUNDING * intact_strength(&**law));
+    let mut divisions_left = (DIVISIONS + DIVISIONS_BY_ROOT / tolerance.sqrt()) as usize;
     let mut state = *from;
     let mut done = 0.0;
     while done < 1.0 {
+        let reason = "the traction changes too fast for the way to the next row; ask for more points";
+        divisions_left = divisions_left.checked_sub(1).ok_or_else(|| (done, reason.to_string()))?;
         let part = length.min(1.0 - done);
         let end = if part >= 1.0 - done { 1.0 } else { done + part };
         let go = |from: &State, to: f64| balance(law, from, at(to), integration);
