@@ -221,6 +221,14 @@ fn a_nearly_rigid_interface_cracks_like_a_stiff_one() {
 }
 
 #[test]
+fn stiffnesses_of_which_one_is_lost_beside_the_other_are_refused() {
+    for factor in [1e13, 1e-13] {
+        let law = Cracking { tangential_stiffness: factor * EXAMPLE_2.normal_stiffness, ..EXAMPLE_2 };
+        refused(&law, "tangential_stiffness", &["normal_stiffness", "1e12"]);
+    }
+}
+
+#[test]
 fn parameters_that_are_no_numbers_are_refused_by_name() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         refused(&Cracking { normal_stiffness: bad, ..EXAMPLE_2 }, "normal_stiffness", &[]);

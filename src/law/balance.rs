@@ -25,8 +25,9 @@ const NEARLY_MET: f64 = 1e-7;
 const ITERATIONS: usize = 60;
 /// The search for a bracket ends this many times farther than the elastic reach.
 const FARTHEST: f64 = 1e8;
-/// Halvings of a Newton correction that makes things worse.
+/// Halvings of a Newton correction that makes things worse, and trials of all corrections.
 const HALVINGS: usize = 12;
+const TRIALS: usize = 100;
 
 /// The state that satisfies both targets, reached in a straight line from the old one.
 pub(super) fn balance(
@@ -123,25 +124,32 @@ fn both(
         jump[N] = old.jump_plastic[N] + law.jump_under(&target)[N];
     }
     let mut response = respond(jump)?;
+    let mut trials = 0;
     for _ in 0..ITERATIONS {
         let over = response.traction - target;
-        if over.amax() <= MET * scale {
+        if largest(&over) <= MET * scale {
             return Ok(response.state);
         }
         let Some(inverse): Option<LocalMatrix> = response.stiffness.try_inverse() else { break };
         let correction = inverse * over;
         let mut part = 1.0;
         let better = (0..HALVINGS).find_map(|_| {
+            trials += 1;
             let trial = respond(jump - correction * part).ok()?;
             part *= 0.5;
             ((trial.traction - target).norm() < over.norm()).then_some(trial)
         });
-        let Some(next) = better else { break };
+        let Some(next) = better.filter(|_| trials < TRIALS) else { break };
         jump = next.state.jump;
         response = next;
     }
-    if (response.traction - target).amax() <= NEARLY_MET * scale {
+    if largest(&(response.traction - target)) <= NEARLY_MET * scale {
         return Ok(response.state);
     }
     Err(format!("the point cannot carry the traction [{:e}, {:e}]", target.x, target.y))
+}
+
+/// The largest component; infinite if one is no number.
+fn largest(of: &Local) -> f64 {
+    if of.iter().all(|x| x.is_finite()) { of.amax() } else { f64::INFINITY }
 }

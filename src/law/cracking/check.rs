@@ -4,6 +4,7 @@
 //! b(W) = c − χ tanφ ≥ 0 for all W        else the vertex lies beyond the asymptotes
 //! K_N > χ₀² e^{|α|} / G_I                else pure tension snaps back at a point
 //! K_T well above c₀² e^{|α|} / G_II and χ₀ tanφ₀ c₀ e^{|α|} / G_I      rule of thumb for shear: a warning
+//! K_T / K_N from 1e-12 to 1e12             else the smaller one is lost in rounding
 //! K_T > |σ| c₀ (tanφ₀ − tanφ_r) e^{|α|} / G_II                        the same for the loss of friction
 //! ```
 
@@ -12,6 +13,8 @@ use super::parameters::Cracking;
 use super::surface::Surface;
 use crate::error::{Code, Warning};
 
+/// Stiffnesses that differ by more than this leave no digit of the smaller one where both are in one matrix.
+const CONTRAST: f64 = 1e12;
 /// Shapes beyond this exponent are steps in double precision.
 const LARGEST_EXPONENT: f64 = 50.0;
 /// b(W) may be below zero by rounding, relative to the cohesion.
@@ -28,6 +31,12 @@ impl Cracking {
     pub(super) fn admit(&self) -> Result<(), Inadmissible> {
         positive("normal_stiffness", self.normal_stiffness)?;
         positive("tangential_stiffness", self.tangential_stiffness)?;
+        let contrast = self.tangential_stiffness / self.normal_stiffness;
+        if !(1.0 / CONTRAST..=CONTRAST).contains(&contrast) {
+            let what = format!("tangential_stiffness is {contrast:.1e} times normal_stiffness");
+            let help = format!("they may differ by factors up to {CONTRAST:e}");
+            return error_at("tangential_stiffness", what, help);
+        }
         not_negative("tensile_strength", self.tensile_strength)?;
         not_negative("cohesion", self.cohesion)?;
         positive("tan_friction", self.tan_friction)?;
