@@ -27,7 +27,7 @@ const ITERATIONS: usize = 60;
 const FARTHEST: f64 = 1e8;
 /// Halvings of a Newton correction that makes things worse, and trials of all corrections.
 const HALVINGS: usize = 12;
-const TRIALS: usize = 100;
+const TRIALS: usize = 40;
 
 /// The state that satisfies both targets, reached in a straight line from the old one.
 pub(super) fn balance(

@@ -14,13 +14,16 @@ use serde_json::{Value, json};
 /// More points are no fault and take their time.
 const MOST_POINTS: f64 = 200.0;
 
+/// Powers of ten that parameters and ways are off their usual sizes: farther ones end, but not within ten seconds.
+const FARTHEST: i32 = 9;
+
 /// A size times a power of ten, mostly a small one.
 fn number(bytes: &mut Unstructured, size: f64) -> Result<f64> {
     let power = match bytes.int_in_range(0..=15)? {
         0..=8 => 0,
         9..=12 => bytes.int_in_range(-3..=3)?,
         13 => return Ok(0.0),
-        _ => bytes.int_in_range(-30..=30)?,
+        _ => FARTHEST - bytes.int_in_range(0..=2 * FARTHEST)?,
     };
     Ok(size * f64::from(bytes.int_in_range(1_u8..=20)?) / 10.0 * 10_f64.powi(power))
 }
