@@ -141,6 +141,24 @@ damage-test: $(MIDPLANE)  ## ten thousand damaged scenes, geometries, meshes, st
 damage-test-quick: $(MIDPLANE)  ## a few hundred of them
 	python3 pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
 
+# the targets share all that they depend on with the program; only the crates of this workspace have the fuzzer's counters
+fuzz-build: $(MIDPLANE)
+	pipeline/tools.sh compiler
+	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/instrument.sh cargo build --release --locked -p midplane-fuzz --bins
+
+fuzz: fuzz-build  ## ten million inputs made by libFuzzer to meshes, scenes, studies, paths, formulas and pairing, some minutes
+	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) $(if $(minutes),--seconds $$(($(minutes) * 60)) --runs 1000000000) -o results/fuzz
+
+fuzz-quick: fuzz-build  ## the same for ten seconds each
+	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) --seconds 10 -o results/fuzz-quick
+
+robustness-docs:  ## put what damage-test and fuzz have found into docs/ROBUSTNESS.md
+	python3 pipeline/robustness.py results/damage/report.json results/fuzz/report.json docs/ROBUSTNESS.md
+
+mutants: | tools  ## 200 places of pairing, projection, laws and load history made wrong, an hour: docs/MUTANTS.md
+	cargo build --release --locked -p midplane-mutants
+	python3 pipeline/mutants.py $(TARGET)/release/mutants -o results/mutants --docs docs
+
 kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test
 
@@ -218,10 +236,10 @@ verify: | tools   ## errors and rates against exact solutions, written to docs/V
 	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
 
 lint:             ## format and clippy, warnings are errors; advisories and licences of what is used
-	cargo fmt --check
+	cargo fmt --check -p midplane -p midplane-fuzz -p midplane-mutants
 	python3 pipeline/advisories.py check
 	python3 pipeline/licences.py check
-	cargo clippy --release --locked --all-targets -- -D warnings
+	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 
 docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/compression/pictures/coupling_joint.png docs/compression_coupling.png
@@ -253,4 +271,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

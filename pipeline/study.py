@@ -3,7 +3,6 @@
 Hover over a point for its settings. What failed stands at the top."""
 
 import argparse
-import html
 import json
 import math
 from pathlib import Path
@@ -14,6 +13,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
 from plotly.offline import get_plotlyjs
+
+from page_text import page_text
 
 AGAINST = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}
 
@@ -40,7 +41,7 @@ def known(points, of_x, of_y):
 
 
 def page(study, out):
-    parts = [f"<h1>{html.escape(study['title'] or study['study'])}</h1>"]
+    parts = [f"<h1>{page_text(study['title'] or study['study'])}</h1>"]
     for k, (title, of_x) in enumerate(AGAINST.items()):
         figure = go.Figure()
         top = 0.0
@@ -71,7 +72,7 @@ def page(study, out):
         parts.append(
             f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>"
         )
-    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{html.escape(study['study'])}</title><script>{get_plotlyjs()}</script>"
+    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{page_text(study['study'])}</title><script>{get_plotlyjs()}</script>"
     out.write_text(
         f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>"
     )

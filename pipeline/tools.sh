@@ -1,6 +1,7 @@
 #!/bin/sh
 # What midplane needs from the system, beside Rust: gmsh, Python with venv, and a library for off-screen rendering.
 # Missing packages are installed if we may (root on Debian), else one line says which.
+# `tools.sh compiler` adds a compiler of C++, which libFuzzer is made with.
 # `tools.sh browser` adds a browser without a window, some 60 MB, in which `make trade` opens its page; nothing fails
 # without it.
 set -eu
@@ -14,6 +15,7 @@ need() { # package, command that succeeds where it is not needed
 finds_library() { /sbin/ldconfig -p | grep -qE "$1"; }
 
 need gcc command -v cc
+[ "${1:-}" != compiler ] || need g++ command -v c++
 need libc6-dev test -e /usr/include/stdio.h
 need gmsh command -v gmsh
 need python3-venv python3 -c 'import ensurepip, venv'

@@ -1,9 +1,10 @@
 """A self-contained HTML page in the making: headings, tables that sort, figures that move."""
 
-import html
 import math
 
 from plotly.offline import get_plotlyjs
+
+from page_text import page_text
 
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1100px; margin: 2em auto; padding: 0 1em }
@@ -49,10 +50,10 @@ class Page:
         self.parts.append(text)
 
     def heading(self, text, level=2):
-        self.add(f"<h{level}>{html.escape(text)}</h{level}>")
+        self.add(f"<h{level}>{page_text(text)}</h{level}>")
 
     def text(self, text, kind=""):
-        self.add(f'<p class="{kind}">{html.escape(text)}</p>')
+        self.add(f'<p class="{kind}">{page_text(text)}</p>')
 
     def figure(self, figure):
         self.figures += 1
@@ -66,18 +67,18 @@ class Page:
         texts = [isinstance(cell, str) for cell in rows[0]] if rows else [True] * len(head)
         kinds = [" class='text'" if text else "" for text in texts]
         lines = [f"<div class='{'scroll' if scroll else 'wide'}'><table><thead><tr>"]
-        lines += [f"<th{kind}>{html.escape(cell)}</th>" for cell, kind in zip(head, kinds)] + ["</tr></thead><tbody>"]
+        lines += [f"<th{kind}>{page_text(cell)}</th>" for cell, kind in zip(head, kinds)] + ["</tr></thead><tbody>"]
         for k, row in enumerate(rows):
             lines.append(f"<tr class='{classes[k] if classes else ''}'>")
             for cell, kind in zip(row, kinds):
                 text, value = cell if isinstance(cell, tuple) else (cell, None)
                 known = value is not None and math.isfinite(value)
                 data = f' data-value="{value!r}"' if known else ' data-value=""' if isinstance(cell, tuple) else ""
-                lines.append(f"<td{kind}{data}>{html.escape(str(text))}</td>")
+                lines.append(f"<td{kind}{data}>{page_text(text)}</td>")
             lines.append("</tr>")
         self.add("".join(lines + ["</tbody></table></div>"]))
 
     def write(self, path):
-        head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{html.escape(self.title)}</title>"
+        head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{page_text(self.title)}</title>"
         head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"
         path.write_text(head + "\n".join(self.parts) + f"<script>{SCRIPT}</script></body></html>")

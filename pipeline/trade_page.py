@@ -1,10 +1,10 @@
 """Draw what `make trade` has measured: one self-contained HTML page, PNGs, and a summary in Markdown."""
 
 import argparse
-import html
 import json
 from pathlib import Path
 
+from page_text import page_text
 from trade_front import label
 from trade_figures import (
     answer_figure,
@@ -142,7 +142,7 @@ def build(data, out):
         page.table(*features_table(data["features"]))
     for title, text in data["benches"].items():
         page.heading(title)
-        page.add(f"<pre>{html.escape(text)}</pre>")
+        page.add(f"<pre>{page_text(text)}</pre>")
     page.write(out / "trade.html")
 
 

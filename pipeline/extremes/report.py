@@ -1,10 +1,10 @@
 """The report of a campaign: a line per row on the terminal, Markdown for the docs, one HTML page with the curves in it."""
 
 import base64
-import html
 from dataclasses import dataclass
 
 import curves
+from page_text import page_text
 from row import Trial
 
 
@@ -118,26 +118,26 @@ def page(entries, pictures, out):
     parts = [
         f"<!doctype html><html lang=en><meta charset=utf-8><title>Extremes</title><style>{STYLE}</style>"
     ]
-    parts += ["<h1>Extremes</h1>", *(f"<p>{html.escape(text)}</p>" for text in INTRODUCTION.split("\n\n"))]
-    parts.append(f"<p><strong>{html.escape(head(entries))}</strong></p>")
+    parts += ["<h1>Extremes</h1>", *(f"<p>{page_text(text)}</p>" for text in INTRODUCTION.split("\n\n"))]
+    parts.append(f"<p><strong>{page_text(head(entries))}</strong></p>")
     for entry in entries:
         state = "" if entry.good else " class=missed"
-        title = html.escape(f"{entry.number}  {entry.tried}")
+        title = page_text(f"{entry.number}  {entry.tried}")
         about = f"{entry.margin()}, {entry.runs} runs, {entry.seconds:.1f} s"
         opened = "" if entry.good and not entry.trial.curves else " open"
         parts.append(
-            f"<details{opened}><summary{state}><strong>{title}</strong> ({html.escape(about)})</summary>"
+            f"<details{opened}><summary{state}><strong>{title}</strong> ({page_text(about)})</summary>"
         )
-        parts.append(f"<p>Expected: {html.escape(entry.expected)}</p>")
-        parts += [f"<p>{html.escape(note)}</p>" for note in entry.trial.notes]
+        parts.append(f"<p>Expected: {page_text(entry.expected)}</p>")
+        parts += [f"<p>{page_text(note)}</p>" for note in entry.trial.notes]
         for curve in entry.trial.curves:
             data = base64.b64encode((out / pictures[entry.number, curve.name]).read_bytes()).decode()
-            parts.append(f'<img alt="{html.escape(curve.title)}" src="data:image/png;base64,{data}">')
+            parts.append(f'<img alt="{page_text(curve.title)}" src="data:image/png;base64,{data}">')
         parts.append("<table><tr><th>claim<th>got<th>limit<th>margin</tr>")
         for claim in entry.trial.claims:
             margin = "" if claim.margin is None else f"{claim.margin:.2g}"
             cells = "".join(
-                f"<td>{html.escape(text)}" for text in (claim.what, claim.got, claim.limit, margin)
+                f"<td>{page_text(text)}" for text in (claim.what, claim.got, claim.limit, margin)
             )
             parts.append(f"<tr{'' if claim.good else ' class=missed'}>{cells}</tr>")
         parts.append("</table></details>")

@@ -1,0 +1,10 @@
+"""Text from scenes, studies and programs, made fit for a page."""
+
+import html
+import unicodedata
+
+
+def page_text(value):
+    """The text without characters that no page may show or that turn the direction of writing, and nothing read as markup."""
+    bad = lambda c: unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\n\t"
+    return html.escape("".join("\ufffd" if bad(c) else c for c in str(value)))
