@@ -58,7 +58,8 @@ SLOWER, MORE = 3.0, 20.0
 
 def build(work, *arguments):
     command = ["cargo", *arguments, "--release", "--locked", "--message-format", "json"]
-    environment = os.environ | {"CARGO_TARGET_DIR": os.environ.get("CARGO_TARGET_DIR", str(ROOT / "target"))}
+    # beside the programs of the project, which it would replace
+    environment = os.environ | {"CARGO_TARGET_DIR": str(Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "mutants")}
     ended = subprocess.run(command, cwd=work, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     messages = [json.loads(line) for line in ended.stdout.splitlines() if line.startswith("{")]
     return ended, messages

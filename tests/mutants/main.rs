@@ -1,6 +1,6 @@
 //! Lists the mutants of Rust sources as JSON lines: a range of bytes, the text that stands there, and one that is wrong.
 //!
-//! Constants, types, patterns, tests and what stands in macros are left alone. A mutant is an expression in the place of
+//! Constants, types, patterns, tests, whole numbers and what stands in macros are left alone. A mutant is an expression in the place of
 //! another of the same type, a statement that is left out, or a function that returns at once.
 
 use std::ops::Range;
@@ -143,6 +143,13 @@ impl<'ast> Visit<'ast> for Sites<'_> {
         visit::visit_expr_unary(self, node);
     }
 
+    fn visit_expr_call(&mut self, node: &'ast syn::ExprCall) {
+        // how much room a list has at first is no matter of right and wrong
+        if !self.of(&node.func).ends_with("with_capacity") {
+            visit::visit_expr_call(self, node);
+        }
+    }
+
     fn visit_expr_method_call(&mut self, node: &'ast syn::ExprMethodCall) {
         let receiver = self.of(&node.receiver);
         let name = node.method.to_string();
@@ -171,12 +178,10 @@ impl<'ast> Visit<'ast> for Sites<'_> {
     }
 
     fn visit_expr_lit(&mut self, node: &'ast syn::ExprLit) {
-        match &node.lit {
-            syn::Lit::Float(value) => self.expression("number", node, format!("(1.01 * {value})")),
-            syn::Lit::Int(value) if value.suffix().is_empty() => {
-                self.expression("number", node, format!("({value} + 1)"));
-            }
-            _ => {}
+        if let syn::Lit::Float(value) = &node.lit {
+            let zero = value.base10_parse::<f64>().is_ok_and(|value| value == 0.0);
+            let wrong = if zero { "1.0".into() } else { format!("(2.0 * {value})") };
+            self.expression("number", node, wrong);
         }
     }
 
