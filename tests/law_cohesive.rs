@@ -456,9 +456,11 @@ fn what_no_point_can_follow_is_refused() {
         (why.key, why.what)
     };
     let soft = Cohesive { normal_stiffness: 5e3, ..composite() };
+    let soft_help = soft.check().unwrap_err().help;
     let (key, what) = refused(soft);
     assert!(key == "normal_stiffness" && what.contains("pure tension"), "{key}: {what}");
     // linear softening: K_N > f²/(2 G), here 6000
+    assert!(soft_help.contains("6.000e3"), "{soft_help}");
     assert!(Cohesive { normal_stiffness: 6001.0, ..composite() }.check().is_ok());
     let (key, _) = refused(Cohesive { tangential_stiffness: 4e3, ..composite() });
     assert_eq!(key, "tangential_stiffness");
