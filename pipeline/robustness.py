@@ -12,7 +12,7 @@ ABOUT = {
     "msh": "bytes as a mesh file; its groups, boundary, parts and the quality of its cells",
     "scene": "text as a scene; the message is short and clean",
     "study": "text as a study of a scene: its points, measures and their scenes",
-    "path": "an interface and a path, as text or made from bytes: laws of all kinds with parameters up to 1e9 times their usual size, driven with error control and by backward Euler",
+    "path": "an interface and a path, as text or made from bytes: laws of all kinds with parameters up to 1e9 times their usual size, driven with error control and by backward Euler (by backward Euler only where the law is warned of)",
     "expression": "text as a formula; its values and derivatives",
     "bind": "text as a scene, bound to coarse meshes of the gallery",
     "pairing": "two arbitrary chains of edges; what is joined has weights that sum to the length, orthonormal frames, and the jump of a translation",

@@ -155,9 +155,11 @@ pub fn columns(law: &Law) -> String {
 const JOINT: f64 = 1e-9;
 /// A way under stress control is not divided below this part of the distance between two rows.
 const SHORTEST: f64 = 1e-7;
-/// Divisions of the way between two rows before it is given up, and per 1/√ε: a smooth way takes a tenth of them.
-const DIVISIONS: f64 = 1000.0;
+/// Divisions of the way between two rows before it is given up, and per 1/√ε: a smooth way takes a tenth of them. One that
+/// has no answer counts as several.
+const DIVISIONS: f64 = 300.0;
 const DIVISIONS_BY_ROOT: f64 = 1.0;
+const UNANSWERED: usize = 8;
 /// Local errors below this part of the cohesion are rounding.
 const ROUNDING: f64 = 1e-11;
 /// And those below so many units in the last place of the elastic traction of the whole jump: where it is an unknown, no
@@ -310,8 +312,6 @@ fn between_rows(
     let mut state = *from;
     let mut done = 0.0;
     while done < 1.0 {
-        let reason = "the traction changes too fast for the way to the next row; ask for more points";
-        divisions_left = divisions_left.checked_sub(1).ok_or_else(|| (done, reason.to_string()))?;
         let part = length.min(1.0 - done);
         let end = if part >= 1.0 - done { 1.0 } else { done + part };
         let go = |from: &State, to: f64| balance(law, from, at(to), integration);
@@ -321,6 +321,11 @@ fn between_rows(
             (Ok(whole), Ok(halves)) => law.misfit(whole, halves) / bound.max(rounding(law, halves)),
             _ => f64::INFINITY,
         };
+        let cost = if ratio.is_finite() { 1 } else { UNANSWERED };
+        divisions_left = divisions_left.checked_sub(cost).ok_or_else(|| {
+            let reason = "the traction changes too fast for the way to the next row; ask for more points";
+            (end, halves.as_ref().err().map_or(reason.to_string(), String::clone))
+        })?;
         let shortest = part <= SHORTEST;
         if ratio <= 1.0 || shortest {
             state = halves.map_err(|reason| (end, reason))?;

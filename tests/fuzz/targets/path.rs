@@ -129,7 +129,9 @@ fn drive(interface: &str, path: &str) -> Corpus {
     if points > MOST_POINTS {
         return Corpus::Reject;
     }
-    for integration in [None, Some(Integration::BackwardEuler(1))] {
+    // a law that is warned of may seek long where its traction snaps
+    let warned = !scene.interfaces["joint"].law.kind().warnings().is_empty();
+    for integration in [None, Some(Integration::BackwardEuler(1))].into_iter().skip(usize::from(warned)) {
         let driven = run::point::drive_text(&scene, "joint", Path::new("path.json"), path, integration);
         if let Ok((law, rows, _)) = driven {
             assert!(!rows.is_empty());
