@@ -155,9 +155,9 @@ fuzz-quick: fuzz-build  ## the same with a tenth of a million each, always the s
 robustness-docs:  ## put what damage-test and fuzz have found into docs/ROBUSTNESS.md
 	python3 pipeline/robustness.py results/damage/report.json results/fuzz/report.json docs/ROBUSTNESS.md
 
-mutants: | tools  ## 200 places of pairing, projection, laws and load history made wrong, an hour: docs/MUTANTS.md
+mutants: | tools  ## 200 places of pairing, projection, laws and load history made wrong, an hour: results/mutants/report.md
 	cargo build --release --locked -p midplane-mutants
-	python3 pipeline/mutants.py $(TARGET)/release/mutants -o results/mutants --docs docs
+	python3 pipeline/mutants.py $(TARGET)/release/mutants -o results/mutants $(if $(docs),--docs docs)
 
 kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test
