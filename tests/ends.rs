@@ -5,7 +5,9 @@
 //! the grid can make equal, so the end of the grid follows its neighbours there.
 
 use crate::common::*;
+use midplane::coupling::{Coupling, Gap, JumpScheme, Points, Scheme, Side, Support, Surroundings};
 use midplane::law::Local;
+use midplane::mesh::Facet;
 use midplane::shape::Shape;
 
 /// Tractions on x < 0.3 m.
@@ -194,4 +196,39 @@ fn a_support_that_comes_later_makes_the_same_grid() {
     let free = r#"{ "name": "a", "fix": { "lower.left": ["x", "y"] } }"#;
     let [held, later, gone, free] = [held, later, gone, free].map(joint);
     assert!(held == later && held == gone && held != free);
+}
+
+/// G of a straight joint from x = 0 to 2 of so many edges on either side, the nodes at x = 0 held or not.
+fn operator(edges: [usize; 2], held: bool) -> Vec<(Vec<usize>, Vec<f64>)> {
+    let chain = |n: usize, forward: bool| {
+        let points: Vec<[f64; 3]> = (0..=n).map(|i| [2.0 * i as f64 / n as f64, 0.0, 0.0]).collect();
+        let edge = |i: usize| Facet::edge(&if forward { [i, i + 1] } else { [i + 1, i] }, i, true);
+        (points, (0..n).map(edge).collect::<Vec<Facet>>())
+    };
+    let [a, b] = [chain(edges[0], false), chain(edges[1], true)];
+    let side = |k: usize, first: usize| {
+        let (points, edges) = [&a, &b][k];
+        [Side { name: "side", points, edges, corners: &[usize::MAX], first }]
+    };
+    let mut supports = vec![Support::Free; 2 * (a.0.len() + b.0.len())];
+    if held {
+        for d in 0..2 {
+            (supports[d], supports[2 * a.0.len() + d]) = (Support::Held, Support::Held);
+        }
+    }
+    let scheme = Scheme { kind: JumpScheme::Projected, points: Points::Gauss, gap: Gap::Closed };
+    let around = Surroundings { supports: &supports, junctions: &[] };
+    let coupling = Coupling::build("joint", &side(0, 0), &side(1, a.0.len()), scheme, around).unwrap();
+    let row = |i: usize| coupling.jump.row(i);
+    (0..coupling.jump.rows()).map(|i| (row(i).0.to_vec(), row(i).1.to_vec())).collect()
+}
+
+#[test]
+fn ends_whose_edges_match_or_leave_room_keep_their_own_jump() {
+    for edges in [[9, 9], [4, 16], [16, 4], [5, 40]] {
+        assert_eq!(operator(edges, true), operator(edges, false), "{edges:?}");
+    }
+    for edges in [[9, 10], [10, 9], [6, 9], [5, 19]] {
+        assert_ne!(operator(edges, true), operator(edges, false), "{edges:?}");
+    }
 }
