@@ -149,7 +149,7 @@ fuzz-build: $(MIDPLANE)
 fuzz: fuzz-build  ## ten million inputs made by libFuzzer to meshes, scenes, studies, paths, formulas and pairing, some minutes
 	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) $(if $(minutes),--seconds $$(($(minutes) * 60)) --runs 1000000000) -o results/fuzz
 
-fuzz-quick: fuzz-build  ## the same with a tenth of a million each, always the same
+fuzz-quick: fuzz-build  ## the same with a hundred thousand or so each, never quite the same ones
 	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) --runs 100000 -o results/fuzz-quick
 
 robustness-docs:  ## put what damage-test and fuzz have found into docs/ROBUSTNESS.md

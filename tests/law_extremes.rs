@@ -286,3 +286,22 @@ fn a_way_that_cannot_be_resolved_ends_and_says_so() {
     let Err(PathError::NoEquilibrium { reason, .. }) = driven else { panic!("{driven:?}") };
     assert!(reason.contains("more points"), "{reason}");
 }
+
+#[test]
+fn a_traction_that_is_no_number_carries_nothing() {
+    let law: Law = serde_json::from_str(
+        r#"{ "type": "coulomb", "tangential_stiffness": 9e4, "friction_coefficient": 1.0, "cohesion": 0.1, "dilatancy": 0.03,
+             "closure": { "initial_stiffness": 2e3, "maximum": 2e-5 } }"#,
+    )
+    .unwrap();
+    let way = |start, end| ComponentControl { control: Controlled::Stress, start, end };
+    let program = vec![
+        PathSegment { n: way(0.0, -6.0), t: way(0.0, -0.0095), points: 6 },
+        PathSegment { n: way(-6.0, -6.0), t: way(-0.0095, -7.5e20), points: 2 },
+    ];
+    let driven =
+        drive(&law, &LawPath { program, initial: None }, &State::default(), Integration::Tolerance(1e-4));
+    let Err(PathError::NoEquilibrium { reason, rows, .. }) = driven else { panic!("{driven:?}") };
+    assert!(reason.contains("cannot carry"), "{reason}");
+    assert!(rows.iter().all(|row| row.state.traction.iter().all(|t| t.is_finite())));
+}

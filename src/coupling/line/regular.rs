@@ -109,4 +109,20 @@ mod tests {
         let message = joined(&line(-1.0, 1.1), &line(1.0, 1.1), false).unwrap_err();
         assert!(message.contains("turn away from each other near (10."), "{message}");
     }
+
+    #[test]
+    fn a_side_that_folds_back_is_kinked_there_whatever_its_corners() {
+        // A closed line there and back, none of whose nodes is on a point of the geometry: its way back lies on nothing
+        let points = at(&[[0.0, 0.0], [0.1, 0.0], [0.4, 0.0], [1.0, 0.0]]);
+        let edges = [[1, 0], [2, 1], [3, 2], [0, 3]].map(|nodes| Facet::edge(&nodes, 0, true));
+        let b = at(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]);
+        let edges_b = [[0, 1], [1, 2]].map(|nodes| Facet::edge(&nodes, 0, true));
+        for corners in [&[][..], &[usize::MAX]] {
+            let side = |points, edges, first| [Side { name: "side", points, edges, corners, first }];
+            let (a, b) = (side(&points, &edges, 0), side(&b, &edges_b, points.len()));
+            let joined = join("joint", &a, &b, Gap::Closed).unwrap();
+            assert!((joined.kink - std::f64::consts::PI).abs() < 1e-12, "{}", joined.kink);
+            assert!((joined.length - 1.0).abs() < 1e-12, "{}", joined.length);
+        }
+    }
 }
