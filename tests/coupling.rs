@@ -433,3 +433,23 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
         }
     }
 }
+
+/// Claim: at a law point a side moves as its nodes make its edges move: fields that edges carry exactly come out, on unmatched sides.
+#[test]
+fn sides_move_as_the_fields_at_their_nodes() {
+    let line = Line::new(&even(0.0, 2.0, 7), &graded(0.0, 2.0, 10, 1.4), 33.0, 0.0);
+    let fields: [fn([f64; 2]) -> [f64; 2]; 2] =
+        [|[x, y]| [0.3 + x - 2.0 * y, 0.1 - 0.4 * x + y], |[x, y]| [-1.0 + 0.5 * y, 2.0 * x - 3.0 * y]];
+    for (kind, points) in [(JumpScheme::Projected, Points::Lobatto), (JumpScheme::Pointwise, Points::Gauss)] {
+        let c = line.couple(kind, points);
+        for (side, nodes) in [&line.points_a, &line.points_b].into_iter().enumerate() {
+            let u: Vec<f64> = nodes.iter().flat_map(|&p| fields[side](in_plane(p))).collect();
+            for point in &c.points {
+                let [x, y, z] = c.displacement(side, point, &u);
+                let exact = fields[side](in_plane(point.position));
+                let off = (x - exact[0]).hypot(y - exact[1]);
+                assert!(off < 1e-13 && z == 0.0, "{kind:?} {side}: {off:e}");
+            }
+        }
+    }
+}

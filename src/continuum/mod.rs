@@ -17,4 +17,4 @@ pub use element::{ElementStiffness, cell_coordinates, element_stiffness};
 pub use load::{cell_field_force, cell_weights, edge_field_force, edge_force, edge_weights};
 pub use material::{Elasticity, PlaneState};
 pub use prestress::PointField;
-pub use recovery::{Stresses, principal, recover};
+pub use recovery::{Stresses, principal, recover, von_mises};

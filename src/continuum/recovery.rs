@@ -161,6 +161,12 @@ fn fit_point(
     }
 }
 
+/// von Mises' equivalent of a stress (xx, yy, zz, xy): √(½ ((σx − σy)² + (σy − σz)² + (σz − σx)²) + 3 τ²).
+pub fn von_mises([xx, yy, zz, xy]: [f64; 4]) -> f64 {
+    let squares = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+    (0.5 * squares + 3.0 * xy * xy).sqrt()
+}
+
 /// Principal stresses in the plane, s₁ ≥ s₂, and σ_zz, of (xx, yy, zz, xy).
 pub fn principal(stress: [f64; 4]) -> [f64; 3] {
     let [xx, yy, zz, xy] = stress;

@@ -129,8 +129,8 @@ pub struct LawPoint {
     pub gap: f64,
     /// N: (coefficient, value).
     pub interpolation: Vec<(usize, f64)>,
-    /// Facets of side A and side B that face each other there.
-    pub facets: [usize; 2],
+    /// Its points on the facets of side A and side B that face each other there.
+    pub on: Sides<OnFacet>,
 }
 
 impl LawPoint {
@@ -142,7 +142,7 @@ impl LawPoint {
             rotation: place.frame,
             gap,
             interpolation: place.functions.clone(),
-            facets: [0, 1].map(|side| place.on[side].facet),
+            on: place.on,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Sides of a coupling, as checks, reports and pictures see them.
 
-use super::Coupling;
+use super::{Coupling, LawPoint};
 use crate::shape::vector::plus;
 
 impl Coupling {
@@ -26,6 +26,18 @@ impl Coupling {
     pub fn point(&self, side: usize, facet: usize, xi: f64) -> [f64; 3] {
         let facets = &self.sides[side];
         plus(self.midplane.origin, facets.point(facet, facets.shapes[facet].line_functions(xi).0))
+    }
+
+    /// Displacement of a side at a law point [length]; `u` has the components of every node of the model.
+    pub fn displacement(&self, side: usize, point: &LawPoint, u: &[f64]) -> [f64; 3] {
+        let (facets, on) = (&self.sides[side], &point.on[side]);
+        let (n, _) = facets.functions(on);
+        let mut sum = [0.0; 3];
+        for (&i, n) in facets.corners[on.facet].iter().zip(n) {
+            let node = &u[self.components * facets.nodes[i]..][..self.components];
+            sum.iter_mut().zip(node).for_each(|(sum, u)| *sum += n * u);
+        }
+        sum
     }
 
     /// dx/dξ of a facet at ξ.

@@ -29,7 +29,7 @@ pub(super) fn note(problem: &Problem, state: &ModelState, increment: usize, told
         let coupling = &interface.coupling;
         let jumps = state.snapshot.jumps[k].iter().zip(&state.snapshot.tractions[k]);
         for (point, (jump, traction)) in coupling.points.iter().zip(jumps) {
-            let [a, b] = point.facets;
+            let [a, b] = point.on.map(|on| on.facet);
             let edge = coupling.chord(0, a).min(coupling.chord(1, b));
             let (opening, slip) = (jump[N], jump[T].hypot(jump[S]));
             if opening.max(slip) <= edge || *traction == Local::zeros() {

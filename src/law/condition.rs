@@ -20,12 +20,18 @@ pub enum Condition {
     Open = 5,
 }
 
+/// True where the faces are apart and carry nothing; across a gap at the start they are until they meet, at r_n = r_n^p = −g.
+#[inline]
+pub fn is_open(jump: &Local, jump_plastic: &Local, traction: &Local) -> bool {
+    jump[N] > jump_plastic[N].min(0.0) && *traction == Local::zeros()
+}
+
 impl Law {
     /// The condition of a point of this law.
     pub fn condition(&self, state: &State) -> Condition {
         let apart = (state.jump - state.jump_plastic)[N] > 0.0;
         match self.damage(state) {
-            _ if state.jump[N] > 0.0 && state.traction == Local::zeros() => Condition::Open,
+            _ if is_open(&state.jump, &state.jump_plastic, &state.traction) => Condition::Open,
             Some(damage) if damage >= 1.0 => Condition::Through,
             Some(damage) if damage > 0.0 && apart => Condition::Tied,
             Some(damage) if damage > 0.0 => Condition::Cracked,
@@ -67,6 +73,14 @@ mod tests {
         // pressed; slid; slid back to where it was; apart; pressed again
         let slid = [[-1e-6, 0.0], [-1e-6, 1e-5], [0.0, 1e-5], [1e-5, 1e-5], [-1e-6, 1e-5]];
         assert_eq!(along(COULOMB, &slid), [Intact, Slid, Slid, Open, Slid]);
+        // across a gap: not yet met; pressed
+        let law: Law = serde_json::from_str(COULOMB).unwrap();
+        let start = law.initial_state(Local::zeros(), 1e-4).unwrap();
+        let after = |n: f64| {
+            let answer = law.respond(Local::new(n, 0.0, 0.0), &start, Integration::Tolerance(1e-6));
+            law.condition(&answer.unwrap().state)
+        };
+        assert_eq!([-0.9e-4, -1.1e-4].map(after), [Open, Intact]);
         // sheared under pressure until all cohesion is spent
         let sheared = [[-5e-6, 0.0], [-5e-6, 1e-5], [-5e-6, 1e-2]];
         assert_eq!(along(CRACKING, &sheared), [Intact, Cracked, Through]);

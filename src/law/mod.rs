@@ -28,7 +28,7 @@ mod variable;
 pub use admissible::Inadmissible;
 pub use closure::Closure;
 pub use cohesive::{Cohesive, MixedMode, NamedSoftening, Softening};
-pub use condition::Condition;
+pub use condition::{Condition, is_open};
 pub use coulomb::{Coulomb, LossOfCohesion};
 pub use cracking::{Cracking, Unloading, WORK};
 pub use elastic::Elastic;

@@ -1,14 +1,19 @@
 //! Bodies and interfaces as VTU grids.
 
-use super::vtu::{Array, Data, VtuGrid};
+use super::vtu::{Array, VtuGrid};
 use super::{RowData, Snapshot};
 use crate::assembly::{BoundSubdomain, InterfaceOperator, Model};
-use crate::continuum::principal;
+use crate::continuum::{principal, von_mises};
 use crate::coupling::Piece;
 use crate::law::{self, LawVariable, Local, N, State};
 use crate::problem::PointLaws;
 
-/// A body: displacement, stress at points and cells, principal stress.
+/// Names of the components of stresses and strains, of principal stresses, and of vectors along an interface.
+const TENSOR: &[&str] = &["xx", "yy", "zz", "xy", "yz", "xz"];
+const PRINCIPAL: &[&str] = &["s1", "s2", "szz"];
+const LOCAL: &[&str] = &["n", "t", "s"];
+
+/// A body: displacement, stress and von Mises' at points and cells, principal stress.
 pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, row: &RowData) -> VtuGrid {
     let subdomain = &model.subdomains[index];
     let u = &snapshot.u[model.dofs_of(index)];
@@ -22,21 +27,23 @@ pub(super) fn subdomain(model: &Model, index: usize, snapshot: &Snapshot, row: &
             3,
             u.chunks_exact(model.components).flat_map(|u| <[f64; 3]>::from(law::local(u))),
         ),
-        Array::float("stress", 6, stresses.nodes.iter().flat_map(full)),
+        Array::labelled("stress", TENSOR, stresses.nodes.iter().flat_map(full)),
+        Array::float("von_mises", 1, stresses.nodes.iter().map(|&s| von_mises(s))),
     ];
     if let Some(temperatures) = &stresses.temperatures {
         grid.point_data.push(Array::float("temperature", 1, temperatures.iter().copied()));
     }
     grid.cell_data = vec![
-        Array::float("stress", 6, stresses.cells.iter().flat_map(full)),
-        Array::float("principal_stress", 3, stresses.cells.iter().flat_map(|&s| principal(s))),
+        Array::labelled("stress", TENSOR, stresses.cells.iter().flat_map(full)),
+        Array::float("von_mises", 1, stresses.cells.iter().map(|&s| von_mises(s))),
+        Array::labelled("principal_stress", PRINCIPAL, stresses.cells.iter().flat_map(|&s| principal(s))),
     ];
     if let Some(is_there) = snapshot.presence.parts.get(index) {
         let cells = subdomain.mesh.cells.len();
         grid.cell_data.push(Array::int("present", std::iter::repeat_n(i64::from(*is_there), cells)));
     }
     if let Some(strains) = &stresses.strains {
-        grid.cell_data.push(Array::float("own_strain", 6, strains.iter().flat_map(full)));
+        grid.cell_data.push(Array::labelled("own_strain", TENSOR, strains.iter().flat_map(full)));
     }
     grid
 }
@@ -97,7 +104,7 @@ pub(super) fn interface(
     let local = |name, vectors: &[Local]| {
         let components = interface.coupling.components;
         let values = vectors.iter().flat_map(|v| v.iter().take(components).copied());
-        Array::float(name, components, values)
+        Array::labelled(name, &LOCAL[..components], values)
     };
     let own = variables.iter().map(|variable| {
         Array::float(
@@ -106,7 +113,14 @@ pub(super) fn interface(
             states.iter().enumerate().map(|(p, state)| laws.at(p).value(variable, state)),
         )
     });
+    let [a, b] = [0, 1].map(|side| -> Vec<[f64; 3]> {
+        points.iter().map(|point| interface.coupling.displacement(side, point, &snapshot.u)).collect()
+    });
+    let middle = a.iter().zip(&b).flat_map(|(a, b)| [0, 1, 2].map(|d| 0.5 * (a[d] + b[d])));
     let mut point_data = vec![
+        Array::float("displacement", 3, middle),
+        Array::float("displacement_a", 3, a.iter().flatten().copied()),
+        Array::float("displacement_b", 3, b.iter().flatten().copied()),
         local("jump", &snapshot.jumps[index]),
         local("jump_plastic", &plastic),
         local("traction", &snapshot.tractions[index]),
@@ -162,7 +176,7 @@ pub(super) fn midplane(interface: &InterfaceOperator) -> VtuGrid {
         connectivity: (0..2 * n).collect(),
         offsets: (1..=n).map(|i| 2 * i).collect(),
         types: vec![3; lines.len()],
-        point_data: vec![Array { name: "arc_length", components: 1, data: Data::Float(ends) }],
+        point_data: vec![Array::float("arc_length", 1, ends)],
         cell_data: vec![
             Array::int("kind", lines.iter().map(|line| line.2)),
             Array::int("edge_a", lines.iter().map(|line| line.3[0])),

@@ -26,6 +26,8 @@ pub(super) enum Data {
 pub(super) struct Array {
     pub name: &'static str,
     pub components: usize,
+    /// Names of the components; none where x, y, z or the name of the array says it.
+    pub labels: &'static [&'static str],
     pub data: Data,
 }
 
@@ -53,12 +55,21 @@ impl Array {
         components: usize,
         values: impl IntoIterator<Item = f64>,
     ) -> Array {
-        Array { name, components, data: Data::Float(values.into_iter().collect()) }
+        Array { name, components, labels: &[], data: Data::Float(values.into_iter().collect()) }
+    }
+
+    /// Floating point values with names of their components.
+    pub(super) fn labelled(
+        name: &'static str,
+        labels: &'static [&'static str],
+        values: impl IntoIterator<Item = f64>,
+    ) -> Array {
+        Array { labels, ..Array::float(name, labels.len(), values) }
     }
 
     /// Integer values.
     pub(super) fn int(name: &'static str, values: impl IntoIterator<Item = i64>) -> Array {
-        Array { name, components: 1, data: Data::Int(values.into_iter().collect()) }
+        Array { name, components: 1, labels: &[], data: Data::Int(values.into_iter().collect()) }
     }
 }
 
@@ -84,10 +95,13 @@ impl Draft {
             Data::Byte(_) => "UInt8",
         };
         // readers take a scalar without this attribute as a flat list
-        let components = match array.components {
+        let mut components = match array.components {
             1 => String::new(),
             n => format!(" NumberOfComponents=\"{n}\""),
         };
+        for (k, label) in array.labels.iter().enumerate() {
+            components.push_str(&format!(" ComponentName{k}=\"{label}\""));
+        }
         let name = array.name;
         self.write(&format!(
             "<DataArray type=\"{kind}\" Name=\"{name}\"{components}{more} format=\"appended\" offset=\""
@@ -124,11 +138,11 @@ impl VtuGrid {
         draft.write(&format!(
             "</FieldData>\n<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">\n<Points>\n"
         ));
-        draft.add(Array { name: "Points", components: 3, data: Data::Float(self.points) }, "");
+        draft.add(Array::float("Points", 3, self.points), "");
         draft.write("</Points>\n<Cells>\n");
-        draft.add(Array { name: "connectivity", components: 1, data: Data::Int(self.connectivity) }, "");
-        draft.add(Array { name: "offsets", components: 1, data: Data::Int(self.offsets) }, "");
-        draft.add(Array { name: "types", components: 1, data: Data::Byte(self.types) }, "");
+        draft.add(Array::int("connectivity", self.connectivity), "");
+        draft.add(Array::int("offsets", self.offsets), "");
+        draft.add(Array { data: Data::Byte(self.types), ..Array::int("types", []) }, "");
         draft.write("</Cells>\n<PointData>\n");
         self.point_data.into_iter().for_each(|array| draft.add(array, ""));
         draft.write("</PointData>\n<CellData>\n");

@@ -57,8 +57,9 @@ impl ProbeInput<'_> {
 
     /// True where the faces are apart and carry nothing.
     pub(super) fn is_open(&self, interface: usize, point: usize) -> bool {
-        let traction = &self.tractions[interface][point];
-        self.jumps[interface][point][N] > 0.0 && *traction == Local::zeros()
+        let state = self.states[interface].get(point);
+        let jump_plastic = state.map_or(Local::zeros(), |state| state.jump_plastic);
+        law::is_open(&self.jumps[interface][point], &jump_plastic, &self.tractions[interface][point])
     }
 
     /// True where a law that has a damage has some.
