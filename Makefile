@@ -30,7 +30,7 @@ beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
 
 # limits $1, $2: options for the check of a scene, folder and name of the file
 limits = $(addprefix @,$(firstword $(wildcard geo/$1/$2.check.args geo/$1/check.args)))
-CHECKING := $(addprefix pipeline/,check_outputs.py energies.py statics.py joints.py)
+CHECKING := $(addprefix pipeline/,check_outputs.py known.py energies.py statics.py joints.py)
 
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
@@ -38,7 +38,7 @@ results/$1/.solved: $(filter-out %.args,$(wildcard geo/$2/*)) $(MIDPLANE) | tool
 	$(MIDPLANE) run $3 -o results/$1
 	@touch $$@
 
-results/$1/.checked: results/$1/.solved $(CHECKING) $(wildcard geo/$2/*check.args) $(VENV)
+results/$1/.checked: results/$1/.solved results/$2/.solved $(CHECKING) $(wildcard geo/$2/*check.args) $(VENV)
 	$(PYTHON) pipeline/check_outputs.py $3 results/$1 $(call limits,$2,$(basename $(notdir $3)))
 	@touch $$@
 
@@ -140,6 +140,12 @@ damage-test: $(MIDPLANE)  ## ten thousand damaged scenes, geometries, meshes, st
 
 damage-test-quick: $(MIDPLANE)  ## a few hundred of them
 	python3 pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
+
+test-paraview: $(addprefix results/,masonry/.solved tension/.solved)  ## open and play results in ParaView, save pictures; installs it
+	pipeline/tools.sh paraview
+	for scene in tension masonry; do \
+	    xvfb-run -a pvpython pipeline/test_paraview.py results/$$scene results/paraview || exit; \
+	done
 
 # the targets share all that they depend on with the program; only the crates of this workspace have the fuzzer's counters
 fuzz-build: $(MIDPLANE)
@@ -271,4 +277,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

@@ -22,8 +22,9 @@ def is_straight(grid):
 
 
 def summed(grid, thickness):
-    """The same by magnitude."""
-    return thickness * grid["length"] @ np.hypot(*grid["traction"].T)
+    """The same by magnitude, with what water carries."""
+    total = "traction_total" if "traction_total" in grid.array_names else "traction"
+    return thickness * grid["length"] @ np.hypot(*grid[total].T)
 
 
 def check_balance(results, scene, summary, interfaces, residual, faults):

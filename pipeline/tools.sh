@@ -2,6 +2,7 @@
 # What midplane needs from the system, beside Rust: gmsh, Python with venv, and a library for off-screen rendering.
 # Missing packages are installed if we may (root on Debian), else one line says which.
 # `tools.sh compiler` adds a compiler of C++, which libFuzzer is made with.
+# `tools.sh paraview` adds ParaView and a screen for it that nobody sees, some 800 MB.
 # `tools.sh browser` adds a browser without a window, some 60 MB, in which `make trade` opens its page; nothing fails
 # without it.
 set -eu
@@ -15,6 +16,12 @@ need() { # package, command that succeeds where it is not needed
 finds_library() { /sbin/ldconfig -p | grep -qE "$1"; }
 
 need gcc command -v cc
+if [ "${1:-}" = paraview ]; then
+    need paraview command -v pvpython
+    need python3-paraview test -d /usr/lib/python3/dist-packages/paraview
+    need xvfb command -v xvfb-run
+    need xauth command -v xauth
+fi
 [ "${1:-}" != compiler ] || need g++ command -v c++
 need libc6-dev test -e /usr/include/stdio.h
 need gmsh command -v gmsh
