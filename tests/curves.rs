@@ -247,3 +247,42 @@ fn a_turned_circle_has_no_jump() {
         }
     }
 }
+
+/// Claim: a loop starts at the A and the B node that lie closest together, at that with the longer edges; of several at the one with
+/// smaller x, then y, wherever the file begins.
+#[test]
+fn loops_start_where_nodes_are_closest() {
+    let start = |a: &Curve, b: &Curve| {
+        let c = join(&[a], &[b], ALL[0]).unwrap();
+        in_plane(c.midplane.segments[0].places[0])
+    };
+    let at = |t: f64| [(2.0 * PI * t).cos(), -(2.0 * PI * t).sin()];
+    let curve = |t: &[f64], forward: bool| Curve::new(t, true, false, forward, &at);
+    // nodes of both sides face each other all round, two of them farthest to the left
+    let lowest = [(PI / 12.0).cos(), (PI / 12.0).sin()].map(|x| -x);
+    for first in 0..12 {
+        for second in [0, 5, 7] {
+            let circle =
+                |from: usize, forward: bool| curve(&even_parts(12, (from as f64 + 0.5) / 12.0), forward);
+            let [x, y] = start(&circle(first, false), &circle(second, true));
+            let off = (x - lowest[0]).hypot(y - lowest[1]);
+            assert!(off < 1e-12, "{first} {second}: starts at {x} {y}");
+        }
+    }
+    // a circle of 40 edges in one of 23, turned: the closest nodes by their angles, which no others come near
+    for turn in [0.013, 0.4, 0.77, 1.3] {
+        let [many, few] = [40, 23];
+        let (a, b) = (even_parts(many, 0.0), even_parts(few, turn));
+        let [x, y] = start(&curve(&a, false), &curve(&b, true));
+        let apart = |s: f64, t: f64| ((s - t) - (s - t).round()).abs();
+        let near = |t: &f64| a[..many].iter().map(|s| apart(*s, *t)).fold(f64::INFINITY, f64::min);
+        let closest = b[..few].iter().min_by(|s, t| near(s).total_cmp(&near(t))).unwrap();
+        let found = (-y).atan2(x) / (2.0 * PI);
+        assert!(apart(found, *closest) < 2e-4, "{turn}: starts at {found}, not at {closest}");
+    }
+}
+
+/// Ends of n even parts of a loop that starts at a parameter.
+fn even_parts(n: usize, from: f64) -> Vec<f64> {
+    (0..=n).map(|i| from + i as f64 / n as f64).collect()
+}

@@ -294,3 +294,29 @@ fn a_fracture_of_one_edge_inside_is_refused_and_a_point_on_one_shares_its_force(
     );
     assert!(message.unwrap_err().to_string().contains("its two faces meet at (0, 0.5)"));
 }
+
+/// Claim: two fractures that meet where the body has a corner of its boundary are two interfaces, though nothing else meets there.
+#[test]
+fn fractures_that_meet_at_a_corner_of_a_hole_are_two() {
+    // a hole 0.4 < x, y < 0.6; lines from its corner (0.4, 0.4) to the left and down
+    let mesh = |fractures: &str| {
+        meshed(&format!(
+            "Point(1) = {{0, 0, 0, 0.2}}; Point(2) = {{1, 0, 0, 0.2}}; Point(3) = {{1, 1, 0, 0.2}}; Point(4) = {{0, 1, 0, 0.2}};
+            Point(5) = {{0.4, 0.4, 0, 0.1}}; Point(6) = {{0.6, 0.4, 0, 0.1}}; Point(7) = {{0.6, 0.6, 0, 0.1}};
+            Point(8) = {{0.4, 0.6, 0, 0.1}}; Point(9) = {{0, 0.4, 0, 0.1}}; Point(10) = {{0.4, 0, 0, 0.1}};
+            Line(1) = {{1, 10}}; Line(2) = {{10, 2}}; Line(3) = {{2, 3}}; Line(4) = {{3, 4}}; Line(5) = {{4, 9}}; Line(6) = {{9, 1}};
+            Line(7) = {{5, 6}}; Line(8) = {{6, 7}}; Line(9) = {{7, 8}}; Line(10) = {{8, 5}}; Line(11) = {{9, 5}}; Line(12) = {{10, 5}};
+            Curve Loop(1) = {{1:6}}; Curve Loop(2) = {{7:10}}; Plane Surface(1) = {{1, 2}}; Curve{{{fractures}}} In Surface{{1}};
+            Physical Curve(\"crack\") = {{{fractures}}}; Physical Curve(\"bottom\") = {{1, 2}}; Physical Curve(\"top\") = {{4}};
+            Physical Surface(\"body\") = {{1}};"
+        ))
+    };
+    let problem = within(SPRINGS, mesh("11, 12"));
+    let lengths: Vec<f64> =
+        problem.model.interfaces.iter().map(|interface| interface.coupling.midplane.length).collect();
+    assert_eq!(lengths.len(), 2, "{lengths:?}");
+    lengths.iter().for_each(|length| close(*length, 0.4, 1e-12, 0.4, "length"));
+    // the body is cut up all the way
+    let nodes = within(SPRINGS, mesh("11")).model.nodes();
+    assert!(problem.model.nodes() > nodes);
+}

@@ -485,3 +485,18 @@ fn what_no_point_can_follow_is_refused() {
     law.check().unwrap();
     assert!(law.warnings()[0].what.contains("6.0000e-1")); // 60 · 0.02/2
 }
+
+/// Claim: a traction at the start that the criterion √((σ/f_t)² + (τ/f_s)²) ≤ 1 does not allow is refused, also of a point that has lost
+/// a share of its energy, whose strength is 1 − D of that; pressure is carried whatever is lost.
+#[test]
+fn tractions_at_the_start_stay_within_the_strength() {
+    let law = Law::Cohesive(composite());
+    let refused = |t: Local| law.initial_state(t, 0.0).err().map(|fault| fault.key);
+    for (n, t) in [(60.0, 0.0), (0.0, 90.0), (36.0, 72.0)] {
+        assert_eq!(refused(Local::new(0.999 * n, 0.999 * t, 0.0)), None, "{n} {t}");
+        assert_eq!(refused(Local::new(1.001 * n, 1.001 * t, 0.0)), Some("initial_traction"), "{n} {t}");
+    }
+    let shear = |t: f64| law.initial_state(Local::new(-5.0, t, 0.0), 0.0).unwrap();
+    assert!(law.damaged(shear(0.0), 1.0).is_ok());
+    assert_eq!(law.damaged(shear(80.0), 0.9).unwrap_err().key, "initial_damage");
+}

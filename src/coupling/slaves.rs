@@ -179,4 +179,17 @@ mod tests {
             (0..n).for_each(|i| assert!((b[i] - x[i]).abs() < 1e-12, "{held:?} {band}: {b:?} {x:?}"));
         }
     }
+    /// Node 1 of three follows nodes 0 and 2 in y alone: what acts on it in y goes to them, in x it stays.
+    #[test]
+    fn a_slave_in_one_component_is_one() {
+        let slave = Slaved { node: 1, component: 1, from: vec![(0, 0.25), (2, 0.75)] };
+        let nodes = Nodes { count: 3, row: vec![0, 1, 2], band: 1, slaved: vec![slave] };
+        let slaves = Slaves::new(&nodes, 2);
+        assert!(!slaves.none());
+        let mut dense = [[0.0; 2]; 6];
+        for (row, column, value) in slaves.gathered(vec![(2, 0, 1.0), (3, 1, 1.0)]) {
+            dense[row][column] += value;
+        }
+        assert_eq!(dense, [[0.0, 0.0], [0.0, 0.25], [1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.75]]);
+    }
 }

@@ -76,3 +76,28 @@ pub(super) fn lagged(
         released,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spring of 10 that carries a shear of 3 and 4 has stored ½ 5²/10; the state lets go of it and moves to where it is at rest.
+    #[test]
+    fn a_point_that_parts_loses_what_its_springs_have_stored() {
+        let traction = Local::new(0.0, 3.0, 4.0);
+        let state = State { traction, jump_plastic: Local::new(0.1, 0.2, 0.3), ..State::default() };
+        let answer = Response {
+            traction,
+            stiffness: LocalMatrix::zeros(),
+            state,
+            dissipation: 0.0,
+            dissipation_gradient: Local::zeros(),
+            damage_gradient: Local::zeros(),
+            released: 0.0,
+        };
+        let Response { state, released, .. } = parted(10.0, answer);
+        assert!((released - 1.25).abs() < 1e-15, "{released}");
+        assert!((state.jump_plastic - Local::new(0.1, 0.5, 0.7)).norm() < 1e-15);
+        assert_eq!((state.traction, state.status), (Local::zeros(), FREE));
+    }
+}

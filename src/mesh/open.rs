@@ -23,7 +23,8 @@ type Numbers = HashMap<(usize, usize), usize>;
 /// Copies of doubled nodes.
 type Copies = BTreeMap<usize, Vec<usize>>;
 
-/// A branch of the curves along which a mesh was opened: from an end, a crossing or another curve to the next.
+/// A branch of the curves along which a mesh was opened: from an end, a crossing, another curve or the boundary to the
+/// next.
 #[derive(Debug, Clone)]
 pub struct Branch {
     /// Number of its curve.
@@ -41,7 +42,7 @@ impl Mesh {
             owner.extend(edges.iter().map(|edge| (ends(edge.nodes()), curve)));
         }
         let cells = self.cells_beside(&owner);
-        let ways = ways(&owner, &self.points);
+        let ways = ways(&owner, &self.ends_outside(&owner), &self.points);
         let (numbers, copies) = self.split(&owner, &cells);
         let mut face_of: HashMap<(usize, EdgeEnds), (EdgeEnds, bool)> = HashMap::new();
         for (&edge, beside) in &cells {
@@ -80,6 +81,19 @@ impl Mesh {
             Branch { curve, faces: [face(true).collect(), face(false).collect()] }
         };
         ways.into_iter().map(branch).collect()
+    }
+
+    /// Nodes of the curves that lie on the boundary.
+    fn ends_outside(&self, owner: &BTreeMap<EdgeEnds, usize>) -> BTreeSet<usize> {
+        let on_curves: BTreeSet<usize> = owner.keys().flatten().copied().collect();
+        let mut alone: BTreeSet<EdgeEnds> = BTreeSet::new();
+        each_edge(&self.cells, |_, nodes| {
+            let edge = ends(&nodes[..2]);
+            if edge.iter().any(|node| on_curves.contains(node)) && !alone.remove(&edge) {
+                alone.insert(edge);
+            }
+        });
+        alone.into_iter().flatten().filter(|node| on_curves.contains(node)).collect()
     }
 
     /// Cells beside edges: whether each has the edge from its smaller to its larger node with itself on the left.
@@ -165,7 +179,11 @@ fn sectors(node: usize, around: &[(usize, usize)], owner: &BTreeMap<EdgeEnds, us
 }
 
 /// Every branch as the nodes along it, with the number of its curve.
-fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, Vec<usize>)> {
+fn ways(
+    owner: &BTreeMap<EdgeEnds, usize>,
+    boundary: &BTreeSet<usize>,
+    points: &[[f64; 3]],
+) -> Vec<(usize, Vec<usize>)> {
     let mut at: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for &[a, b] in owner.keys() {
         at.entry(a).or_default().push(b);
@@ -176,12 +194,13 @@ fn ways(owner: &BTreeMap<EdgeEnds, usize>, points: &[[f64; 3]]) -> Vec<(usize, V
     let rounded = |node: usize| points[node].map(|x| (x / (TOGETHER * size)).round() as i64);
     let order = |a: &usize, b: &usize| rounded(*a).cmp(&rounded(*b)).then(a.cmp(b));
     let curve = |a: usize, b: usize| owner[&ends(&[a, b])];
-    let goes_on = |node: usize| matches!(at[&node][..], [a, b] if curve(node, a) == curve(node, b));
+    let same = |node: usize| matches!(at[&node][..], [a, b] if curve(node, a) == curve(node, b));
+    let goes_on = |node: usize| same(node) && !boundary.contains(&node);
     let mut nodes: Vec<usize> = at.keys().copied().collect();
     nodes.sort_by(order);
     let mut used: BTreeSet<EdgeEnds> = BTreeSet::new();
     let mut found = Vec::new();
-    // from ends, crossings and other curves first, then loops
+    // from ends, crossings, other curves and the boundary first, then loops
     let starts = nodes.iter().filter(|&&node| !goes_on(node)).chain(&nodes);
     for &start in starts {
         let mut next: Vec<usize> = at[&start].clone();

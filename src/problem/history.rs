@@ -131,12 +131,19 @@ pub(super) fn steps(
             water,
         };
         step.check(model)?;
+        let at_control = ["steps", &index, "control"];
+        if step.control != Control::Load && step.water_follows_load_factor() {
+            let what = "the path of equilibria cannot be followed while a pressure in an interface holds load_factor";
+            let help = "state the pressure at the end of the step, without load_factor: it goes there in proportion from what \
+                        it was; or set \"control\": \"load\"";
+            return Err(scene.source.error_at(&at_control, what, help));
+        }
         if step.control != Control::Load && !step.is_affine() {
             let what = "the path of equilibria cannot be followed while a formula bends with load_factor";
             let help = "let loads grow in proportion, such as \"60 + 20*load_factor\", in several steps where they bend \
                         (a load without load_factor goes from where the step before left it to what it states); or set \
                         \"control\": \"load\"";
-            return Err(scene.source.error_at(&["steps", &index, "control"], what, help));
+            return Err(scene.source.error_at(&at_control, what, help));
         }
         steps.push(step);
     }

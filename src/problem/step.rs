@@ -113,15 +113,19 @@ impl BoundStep {
 
     /// True if a formula in load_factor makes loads or displacements anything but a ramp.
     pub fn follows_load_factor(&self) -> bool {
-        !(self.changing.is_empty() && self.moving.is_empty())
-            || self.water.as_ref().is_some_and(|water| water.follows_load_factor())
+        !(self.changing.is_empty() && self.moving.is_empty()) || self.water_follows_load_factor()
+    }
+
+    /// True if the load factor stands in a pressure of an interface.
+    pub(super) fn water_follows_load_factor(&self) -> bool {
+        self.water.as_ref().is_some_and(|water| water.follows_load_factor())
     }
 
     /// True if loads and displacements are affine in the load factor, so that the path of equilibria can be followed.
     pub fn is_affine(&self) -> bool {
         self.changing.iter().all(|load| load.is_affine())
             && self.moving.iter().all(|moving| moving.value.is_affine())
-            && self.water.as_ref().is_none_or(|water| !water.follows_load_factor())
+            && !self.water_follows_load_factor()
     }
 
     /// Asks every formula in load_factor at every increment, so that none fails half-way.

@@ -248,22 +248,24 @@ impl PointLaw for Cohesive {
         self.secant(&(jump - jump_plastic), own[DAMAGE]).0
     }
 
-    /// Excess over the surface of a damage; friction is left out.
+    /// Excess over the surface of a damage, beyond the friction on the share that is lost.
     fn excess(&self, traction: &Local, own: &[f64; OWN]) -> f64 {
         let damage = own[DAMAGE];
         let [kn, kt, _] = self.elastic_stiffness();
         let left = 1.0 - damage;
-        if left <= 0.0 || (damage > 0.0 && traction[N] < 0.0) {
-            return if left < 0.0 { f64::INFINITY } else { f64::NEG_INFINITY };
+        let rubbed = damage * self.friction_coefficient * (-traction[N]).max(0.0);
+        let bonded = (shear(traction) - rubbed).max(0.0);
+        if left <= 0.0 {
+            return if left < 0.0 { f64::INFINITY } else { bonded.max(traction[N]) };
         }
-        let jump = Local::new(traction[N] / kn, traction[1] / kt, traction[2] / kt) / left;
+        let jump = Local::new(traction[N] / kn, bonded / kt, 0.0) / left;
         let at = self.mixity(&jump);
         if damage > 0.0 {
             return (self.driven(&self.curve(), &at).value - damage)
                 * self.tensile_strength.max(self.shear_strength);
         }
         let epsilon = (at.square * self.strengths(at.share).per_square).sqrt();
-        (1.0 - 1.0 / epsilon.max(f64::MIN_POSITIVE)) * traction[N].max(0.0).max(shear(traction))
+        (1.0 - 1.0 / epsilon.max(f64::MIN_POSITIVE)) * traction[N].max(0.0).max(bonded)
     }
 
     fn strength(&self, state: &State) -> Option<Strength> {
