@@ -24,7 +24,9 @@ variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json %
 all: $(SCENES) law  ## build, solve every scene of the gallery, check the results, draw the pictures
 	@echo "up to date: results/<scene>/, its pictures in results/<scene>/pictures/"
 
-DRAWING := $(addprefix pipeline/,draw.py traction.py history.py exact.py page.py)
+PICTURES := $(addprefix pipeline/,page.py names.py labels.py scene_file.py)
+DRAWING := $(PICTURES) $(addprefix pipeline/,draw.py traction.py history.py plane.py results.py displacement.py principal.py interfaces.py \
+    coupling.py measured.py joints.py inclusion.py solutions.py) $(wildcard pipeline/exact*.py)
 # beside $1: scene, $2: results to show beside those of the scene
 beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
 
@@ -64,7 +66,7 @@ $(foreach name,$(SCENES),$(eval $(call scene,$(name))))
 # Example 2 at several pressures, over the curves of one point of its law
 shear: results/shear/.example2
 results/shear/.example2: results/shear/.checked results/shear_as_printed/.checked geo/shear/path.json
-results/shear/.example2: pipeline/example2.py pipeline/history.py pipeline/page.py
+results/shear/.example2: pipeline/example2.py $(DRAWING)
 	$(PYTHON) pipeline/example2.py $(MIDPLANE) geo/shear/path.json results/shear \
 	    geo/shear/scene.json geo/shear/as_printed.json --within=6e-6
 	for run in results/shear/scene_*/; do \
@@ -75,11 +77,21 @@ results/shear/.example2: pipeline/example2.py pipeline/history.py pipeline/page.
 	done
 	@touch $@
 
+# the dam in three files, beside crack lengths that were published
+dam: results/dam/.levels
+results/dam/.levels: results/dam/.checked results/dam_flow/.checked results/dam_workshop/.checked pipeline/dam.py $(PICTURES)
+	$(PYTHON) pipeline/dam.py geo/dam/scene.json results/dam --compare=flow=results/dam_flow \
+	    --compare=workshop=results/dam_workshop --within=1e-8
+	@touch $@
+
+animate-%: results/%/.checked  ## results/<scene>/pictures/displacement.gif: the stored rows, one after the other
+	$(PYTHON) pipeline/animate.py geo/$*/scene.json results/$*
+
 law: $(addprefix results/law/,shear.png closing.png)  ## drive one point of the cracking law along geo/{shear,closing}/path.json and draw it
 results/law/shear.png: SAYS := --title="A crack shears and loses its strength" --subtitle="one point of Example 2 under −5 MPa"
 results/law/closing.png: SAYS := --title="A crack opens, closes, is sheared under pressure, and opens again" \
     --subtitle="one point of Example 2 along geo/closing/path.json; the numbers follow the path"
-results/law/%.png: geo/%/path.json geo/shear/scene.json pipeline/law_path.py pipeline/page.py $(MIDPLANE) $(VENV)
+results/law/%.png: geo/%/path.json geo/shear/scene.json pipeline/law_path.py $(PICTURES) $(MIDPLANE) $(VENV)
 	@mkdir -p results/law
 	$(MIDPLANE) law geo/shear joint $< --tolerance 1e-6 > results/law/$*.csv
 	$(PYTHON) pipeline/law_path.py results/law/$*.csv --scene geo/shear/scene.json --interface joint $(SAYS) -o $@

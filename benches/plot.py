@@ -4,16 +4,22 @@
 
 import argparse
 import csv
+import sys
 from collections import defaultdict
 from pathlib import Path
 
-import matplotlib
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "pipeline"))
 
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-COLOURS = {"elastic": "tab:blue", "friction": "tab:orange", "cracking": "tab:red"}
+import page  # noqa: E402
+from page import BLUE, GREY, ORANGE, VERMILLION, sign  # noqa: E402
+
+COLOURS = {"elastic": BLUE, "friction": ORANGE, "cracking": VERMILLION}
+OURS = {"marker": "o", "markersize": 4.5, "linewidth": 1.4}
 MARKERS = {"NGSolve": "s", "scikit-fem": "^", "GetFEM": "D", "CalculiX": "v"}
+THEIRS = {"linestyle": "--", "markerfacecolor": "none", "markersize": 4.5, "linewidth": 1.0}
+FACTOR = {"linestyle": ":", "linewidth": 1.2, "marker": "."}
 
 
 def read(path):
@@ -22,12 +28,12 @@ def read(path):
     return about, list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-def curves(rows, y, scale=1.0):
+def curves(rows, y):
     """Points (dofs, y) by scene, those without a value left out."""
     found = defaultdict(list)
     for row in rows:
         if row[y] not in ("", "0"):
-            found[row["scene"]].append((int(row["dofs"]), scale * float(row[y])))
+            found[row["scene"]].append((int(row["dofs"]), float(row[y])))
     return {scene: sorted(points) for scene, points in found.items()}
 
 
@@ -41,38 +47,39 @@ def fastest(peers, y):
     return found
 
 
+def draw(axis, rows, peers, y, text):
+    """One time against dofs: this program, its peers, one factorisation."""
+    for scene, points in curves(rows, y).items():
+        axis.plot(*zip(*points), color=COLOURS[scene], zorder=3, **OURS)
+    for (scene, peer), points in fastest(peers, y).items():
+        axis.plot(*zip(*sorted(points.items())), color=COLOURS[scene], marker=MARKERS[peer], **THEIRS)
+    axis.plot(*zip(*curves(rows, "factor")["elastic"]), color=GREY, **FACTOR)
+    axis.set(xscale="log", yscale="log", xlabel="dofs")
+    axis.grid(True, which="major")
+    page.caption(axis, text)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes")
-    parser.add_argument("peers", nargs="*")
-    parser.add_argument("-o", "--out", default="results/bench/bench.png")
+    parser.add_argument("scenes", help="the table of scenes.py")
+    parser.add_argument("peers", nargs="*", help="tables of peers/compare.py")
+    parser.add_argument("-o", "--out", type=Path, default="results/bench/bench.png")
     options = parser.parse_args()
     about, rows = read(options.scenes)
     peers = [row for path in options.peers for row in read(path)[1]]
-
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
-    for scene, points in curves(rows, "seconds").items():
-        left.plot(*zip(*points), "o-", color=COLOURS[scene], label=f"midplane, {scene}")
-    for (scene, peer), points in fastest(peers, "seconds").items():
-        style = dict(color=COLOURS[scene], marker=MARKERS[peer], linestyle="--", markerfacecolor="none")
-        left.plot(*zip(*sorted(points.items())), **style, label=f"{peer}, {scene}")
-    left.plot(*zip(*curves(rows, "factor")["elastic"]), ":", color="grey", label="one factorisation")
-    left.set(ylabel="whole process [s]", title="From .msh to .vtu")
-
-    for scene, points in curves(rows, "iteration", 1e3).items():
-        right.plot(*zip(*points), "o-", color=COLOURS[scene], label=f"midplane, {scene}")
-    for (scene, peer), points in fastest(peers, "iteration").items():
-        style = dict(color=COLOURS[scene], marker=MARKERS[peer], linestyle="--", markerfacecolor="none")
-        points = [(dofs, 1e3 * seconds) for dofs, seconds in sorted(points.items())]
-        right.plot(*zip(*points), **style, label=f"{peer}, {scene}")
-    right.plot(*zip(*curves(rows, "factor", 1e3)["elastic"]), ":", color="grey", label="one factorisation")
-    right.set(ylabel="one Newton iteration [ms]", title="Cost of an iteration")
-    for axes in (left, right):
-        axes.set(xscale="log", yscale="log", xlabel="dofs")
-        axes.grid(True, which="both", alpha=0.2)
-        axes.legend(fontsize=8)
-    figure.supxlabel(about, fontsize=6, color="grey")
-    figure.savefig(options.out, dpi=120)
+    plt.rcParams.update(page.STYLE)
+    figure, (left, right) = page.graphs(1, 4.2, columns=2, raised=page.CAPTION, sharey=False)
+    figure.subplots_adjust(wspace=0.2)
+    draw(left, rows, peers, "seconds", "from .msh to .vtu")
+    draw(right, rows, peers, "iteration", "one iteration")
+    left.set_ylabel("time [s]")
+    scenes = dict.fromkeys(row["scene"] for row in [*rows, *peers])
+    there = dict.fromkeys(peer for _, peer in fastest(peers, "seconds"))
+    keys = [sign(scene, COLOURS[scene], linewidth=3) for scene in scenes]
+    keys += [sign("midplane", GREY, **OURS), *(sign(peer, GREY, marker=MARKERS[peer], **THEIRS) for peer in there)]
+    page.key_below(figure, [*keys, sign("one factorisation", GREY, **FACTOR)])
+    page.heading(left, "Time against size", about, raised=page.CAPTION)
+    page.save(figure, options.out)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,9 @@ import pyvista
 from matplotlib.collections import LineCollection
 
 import page
-from page import BLUE, FACE, GREEN, INK, PALE, VERMILLION, Page, sign
+import plane
+from page import BLUE, FACE, GREEN, INK, MAP, PALE, VERMILLION, sign
+from plane import Page
 
 SEGMENT, GRID, EDGE_A, EDGE_B, FOOT_A, FOOT_B, LAW_POINT = range(7)
 APART = 0.05  # of the interface's extent: how far each side is moved
@@ -56,8 +58,8 @@ def draw_joint(joint, meshes, units, folder):
     points = np.concatenate([joint.ends, joint.law_points])
     air = 3 * shift
     bounds = [(low - air, high + air) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
-    sheet = Page(bounds, joint.name, subtitle, key=page.KEY)
-    sheet.axis.set(xlabel=f"x [{units}]", ylabel=f"y [{units}]")
+    sheet = Page(bounds, joint.name, subtitle)
+    sheet.label(units)
     sheet.render(meshes, "#DCDCD9", color=FACE)
     axis = sheet.axis
     feet = {"linewidths": 0.6, "zorder": 3}
@@ -96,10 +98,10 @@ def draw_joint(joint, meshes, units, folder):
 def draw_quality(joints, meshes, units, folder):
     """The meshes, coloured by the quality of their cells, and the joints."""
     worst = min(mesh["quality"].min() for mesh in meshes)
-    levels, colours = np.linspace(0, 1, 11), plt.get_cmap("viridis", 10)
-    subtitle = f"scaled Jacobian of the cells, the worst {worst:.2f}; joints in red"
-    sheet = Page(page.frame(meshes), "quality of the meshes", subtitle, bar=page.BAR)
-    sheet.axis.set(xlabel=f"x [{units}]", ylabel=f"y [{units}]")
+    levels, colours = np.linspace(0, 1, 11), plt.get_cmap(MAP, 10)
+    subtitle = f"scaled Jacobian of the cells, the worst {worst:.2f}; joints in orange"
+    sheet = Page(plane.frame(meshes), "quality of the meshes", subtitle, bar=plane.BAR)
+    sheet.label(units)
     sheet.render(meshes, "#2B2B2B", scalars="quality", cmap=colours, clim=(0, 1))
     sheet.colour_bar(levels, colours, "quality")
     for joint in joints:
@@ -118,7 +120,7 @@ def main():
     files = sorted(arguments.folder.glob("*.vtu"))
     if not files:
         parser.error(f"{arguments.folder} holds no .vtu: run midplane check SCENE --plot")
-    if not page.can_render():
+    if not plane.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): nothing drawn")
         return
     grids = {path: pyvista.read(path) for path in files}

@@ -170,8 +170,3 @@ def inclusion(scene, results):
     normal = amplitudes["n0"] + amplitudes["n2"] * np.cos(2 * angle)
     shear = -amplitudes["t2"] * np.sin(2 * angle)
     return Exact({}, {"n": (s, pull * normal), "t": (s, pull * shear)})
-
-
-SOLUTIONS = {"tension": tension, "dcb": dcb, "friction_block": friction_block, "pull_bar": pull_bar,
-    "inclusion": inclusion,
-}

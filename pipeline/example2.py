@@ -16,7 +16,7 @@ import pyvista
 
 import page
 from history import read
-from page import GREY, PALE, RUNS, sign
+from page import DASHES, GREY, PALE, RUNS, sign
 
 PRESSURES = [1, 5, 20]
 MM = 1e-3  # m
@@ -52,7 +52,7 @@ def draw(axis, runs, friction):
         axis.plot(jump / MM, stress, color=PALE, linewidth=5, solid_capstyle="butt", zorder=1)
         dots = {"marker": "o", "markersize": 2.6, "linestyle": "none", "clip_on": False, "zorder": 5}
         axis.plot(history["jump_t"] / MM, history["tau"], color=colour, **dots)
-        axis.axhline(friction * pressure, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=2)
+        axis.axhline(friction * pressure, color=GREY, linewidth=0.8, linestyle=DASHES, zorder=2)
         text = f"$\\sigma$ = −{pressure} MPa"
         place = {"xytext": (0, 7), "textcoords": "offset points", "ha": "right", "color": colour}
         axis.annotate(text, (jump[-1] / MM, stress[-1]), **place)
@@ -74,7 +74,7 @@ def main():
     arguments = parser.parse_args()
     plt.rcParams.update(page.STYLE)
 
-    figure, axes = page.graphs(1, 3.9 + page.KEY, columns=2)
+    figure, axes = page.graphs(1, 3.9, columns=2)
     spread = deviation = 0.0
     for axis, scene in zip(axes, arguments.scenes, strict=True):
         law = json.loads(scene.read_text())["interfaces"]["joint"]["law"]
@@ -107,7 +107,7 @@ def main():
         [
             sign("two unmatched layers", RUNS[0], marker="o", markersize=2.6, linestyle="none"),
             sign("one point of the law", PALE, linewidth=5),
-            sign("friction $|\\sigma|\\,\\tan\\varphi_0$", GREY, linewidth=0.8, linestyle=(0, (4, 3))),
+            sign("friction $|\\sigma|\\,\\tan\\varphi_0$", GREY, linewidth=0.8, linestyle=DASHES),
         ],
     )
     page.save(figure, arguments.results / "pictures" / "example2.png")

@@ -15,29 +15,17 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap, Normalize
-from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
 
+import labels
 import page
 import scene_file
-from page import BLUE, GREEN, GREY, INK, ORANGE, PALE, VERMILLION, sign
+from names import unknown
+from page import DASHES, INK, OPEN, PALE, STATUS, TIED, sign
 
-OPEN, TIED = 4, 6
-STATUS = {
-    0: ("elastic or stick", GREY),
-    1: ("T: cracks in tension", VERMILLION),
-    2: ("C: cracks or slips, pressed", BLUE),
-    3: ("Z: slips at σ = 0", "#CC79A7"),
-    OPEN: ("open, free of stress", GREEN),
-    5: ("closed crack, elastic", INK),
-    TIED: ("open crack, tied, elastic", ORANGE),
-}
 WORK = LinearSegmentedColormap.from_list("work", ["#5E5E5A", "#D5D5D1"])  # surfaces, the later the paler
 SURFACES = 5
 TOGETHER = 0.03  # of a graph: ends of segments that are closer share a label
 WIDTH, HEIGHT = page.LEFT + page.WIDTH + page.RIGHT, 5.6  # of the page [inch]
-KEY = 0.5  # room for the key [inch]
-FONT = 8.0  # of the numbers [points]
 
 
 def read(csv):
@@ -50,16 +38,8 @@ def energy_i(scene, interface):
     """Fracture energy in mode I of an interface of a scene, None where there is none."""
     interfaces = scene_file.read(Path(scene))["interfaces"]
     if interface not in interfaces:
-        raise SystemExit(f"{scene}: no interface \"{interface}\"; there is {', '.join(interfaces)}")
+        raise SystemExit(unknown(scene, "interface", interface, interfaces))
     return interfaces[interface]["law"].get("fracture_energy_i")
-
-
-def scaled(values, unit):
-    """Lengths in a unit that suits them, and its name: metres as mm or µm."""
-    largest = np.abs(values).max()
-    if unit != "m" or largest >= 1 or largest == 0:
-        return values, unit
-    return (values * 1e3, "mm") if largest >= 1e-3 else (values * 1e6, "µm")
 
 
 def hyperbola(row, sigma):
@@ -102,39 +82,16 @@ def listed(numbers):
 def number_ends(axes, rows, x, y):
     """Dots at the start and at the ends of the segments, numbered; those at one place share a label."""
     ends = np.flatnonzero(rows["s"] == np.round(rows["s"]))
-    axes.autoscale_view()
-    path = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y])))
+    path = labels.in_axes(axes, x, y)
     places = {}
     for number, end in enumerate(ends):
         near = (first for first in places if np.hypot(*(path[end] - path[first])) < TOGETHER)
         places.setdefault(next(near, end), []).append(number)
-    fine = np.linspace(path[:-1], path[1:], 20).reshape(-1, 2)
-    taken = np.concatenate([fine, np.repeat(path[list(places)], 50, axis=0)])  # a dot is worse than a line
+    # a dot is worse than a line
+    taken = np.concatenate([labels.along(path), np.repeat(path[list(places)], 50, axis=0)])
     for first, numbers in places.items():
         axes.plot(x[first], y[first], "o", color=INK, markersize=3.6, zorder=5, clip_on=False)
-        taken = place_label(axes, path[first], listed(numbers), taken)
-
-
-def place_label(axes, dot, text, taken):
-    """A label at the corner of its dot where the fewest points are taken; all that are taken then. In parts of the axes."""
-    point = 1 / (72 * axes.get_window_extent().size / axes.figure.dpi)  # in parts of the axes
-    half = FONT * np.array([0.3 * len(text), 0.55]) * point
-
-    def middle(side):
-        return dot + side * (half + 2.5 * point)
-
-    def crowd(side):
-        away = np.abs(taken - middle(side)) / half
-        outside = (np.abs(middle(side) - 0.5) + half > 0.52).any()
-        return (away < 1).all(axis=1).sum() + 0.1 * (away < 2).all(axis=1).sum() + 1000 * outside
-
-    sides = [np.array(side) for side in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
-    best = middle(min(sides, key=crowd))
-    look = {"ha": "center", "va": "center", "fontweight": "bold", "fontsize": FONT, "zorder": 6}
-    halo = [withStroke(linewidth=1.5, foreground="white")]
-    axes.text(*best, text, transform=axes.transAxes, path_effects=halo, **look)
-    box = np.stack(np.meshgrid(*np.linspace(best - half, best + half, 8).T), axis=-1).reshape(-1, 2)
-    return np.concatenate([taken, np.repeat(box, 20, axis=0)])
+        taken = labels.place_label(axes, path[first], listed(numbers), taken, fontweight="bold")
 
 
 def cross(axes):
@@ -161,14 +118,9 @@ def draw_stress_plane(axes, rows, work, label, stress):
             points = row["tensile_strength"] - (row["tensile_strength"] - low) * np.linspace(0, 1, 400) ** 2
             both = np.concatenate([-hyperbola(row, points)[::-1], hyperbola(row, points)])
             axes.plot(np.concatenate([points[::-1], points]), both, color=WORK(norm(work[k])), linewidth=1.0, zorder=1)
-        if work.max() > 0:
-            scale = plt.cm.ScalarMappable(norm, WORK)
-            bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0.64, 0.95, 0.34, 0.025)), orientation="horizontal")
-            bar.set_label(label, labelpad=2)
-            bar.outline.set_visible(False)
-            bar.ax.xaxis.set_major_locator(MaxNLocator(2))
-            bar.ax.xaxis.set_major_formatter("{x:g}")
-            bar.ax.tick_params(length=0, pad=2)
+        for spent in np.unique([0.0, work.max()]):
+            text = f"surface at {label}".replace("?", page.plain(float(f"{spent:.2g}")))
+            axes.plot([], [], color=WORK(norm(spent)), linewidth=1.0, label=text)
     trace(axes, sigma, tau, rows["status"])
     number_ends(axes, rows, sigma, tau)
 
@@ -176,14 +128,14 @@ def draw_stress_plane(axes, rows, work, label, stress):
 def draw_curve(axes, rows, component, names, units):
     """One traction against its jump."""
     (stress, length), (traction, jump) = units, names
-    x, length = scaled(rows[f"jump_{component}"], length)
+    x = rows[f"jump_{component}"]
     y = rows[f"traction_{component}"]
     cross(axes)
     trace(axes, x, y, rows["status"])
     axes.margins(0.08, 0.12)
     axes.locator_params(axis="x", nbins=6)
-    axes.ticklabel_format(axis="x", scilimits=(-3, 4), useMathText=True)
-    axes.set(xlabel=f"{jump} [{length}]", ylabel=f"{traction} [{stress}]")
+    axes.set_ylabel(f"{traction} [{stress}]")
+    page.scale_axis(axes.xaxis, f"{jump} [{length}]", np.abs(x).max())
     number_ends(axes, rows, x, y)
 
 
@@ -199,16 +151,14 @@ def gap_of(rows):
 
 def draw_gap(axes, rows, length):
     """The gap along the path, and the opening that the law keeps; the numbers are those of the other graphs."""
-    (gap, opening), length = scaled(np.stack([gap_of(rows), own(rows, "opening")]), length)
+    gap, opening = gap_of(rows), own(rows, "opening")
     axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
     kept = opening - gap
     if opening.any() and kept.max() > TOGETHER * gap.max():
-        axes.plot(rows["s"], opening, color=INK, linewidth=0.9, linestyle=(0, (4, 3)), zorder=2)
-        last = kept.argmax()
-        here = {"xytext": (0, 3), "textcoords": "offset points", "ha": "right"}
-        axes.annotate("opening $o$ kept", (rows["s"][last], opening[last]), **here)
+        axes.plot(rows["s"], opening, color=INK, linewidth=0.9, linestyle=DASHES, zorder=2, label="opening $o$ kept")
     trace(axes, rows["s"], gap, rows["status"])
-    axes.set(xlabel="point of the path", ylabel=f"gap [{length}]", xlim=(0, rows["s"][-1]))
+    axes.set(xlabel="point of the path", xlim=(0, rows["s"][-1]))
+    page.scale_axis(axes.yaxis, f"gap [{length}]", np.abs(gap).max())
     axes.set_xticks(np.arange(int(rows["s"][-1]) + 1))
     axes.grid(axis="x")
 
@@ -219,7 +169,7 @@ def draw(rows, work, label, units):
     rooms = [["n", "t"], ["plane", "gap"]] if parts else [["plane", "n"], ["plane", "t"]]
     figure, axes = plt.subplot_mosaic(rooms, figsize=(WIDTH, HEIGHT))
     left, right = page.LEFT / WIDTH, 1 - page.RIGHT / WIDTH
-    bottom, top = (KEY + page.BOTTOM) / HEIGHT, 1 - page.TOP / HEIGHT
+    bottom, top = page.BOTTOM / HEIGHT, 1 - page.TOP / HEIGHT
     figure.subplots_adjust(left=left, right=right, bottom=bottom, top=top, wspace=0.28, hspace=0.3)
     draw_curve(axes["n"], rows, "n", ("normal traction σ", "normal jump $u_n$"), units)
     draw_curve(axes["t"], rows, "t", ("shear traction τ", "shear jump $u_t$"), units)
@@ -227,8 +177,8 @@ def draw(rows, work, label, units):
     if parts:
         draw_gap(axes["gap"], rows, units[1])
     seen = [STATUS[kind] for kind in STATUS if (rows["status"][1:] == kind).any()]
-    handles = [sign(text, colour, linewidth=2.4) for text, colour in seen]
-    figure.legend(handles=handles, ncols=3, loc="lower left", bbox_to_anchor=(left, 0), borderaxespad=0.3)
+    keys = [sign(text, colour, linewidth=2.4) for text, colour in seen]
+    page.key_below(figure, keys + [line for axis in axes.values() for line in axis.get_legend_handles_labels()[0]])
     return figure, axes[rooms[0][0]]
 
 
@@ -250,11 +200,11 @@ def main():
     if len(rows) < 2:
         raise SystemExit(f"{arguments.csv}: a path needs two rows or more")
     stress, length = arguments.units
-    scale, label = 1.0, f"work W [{stress}·{length}]"
+    scale, label = 1.0, f"W = ? {stress}·{length}"
     if arguments.scene:
         mode_i = energy_i(arguments.scene, arguments.interface)
         if mode_i:
-            scale, label = mode_i, "work $W / G_I$"
+            scale, label = mode_i, "$W / G_I$ = ?"
     plt.rcParams.update(page.STYLE)
     figure, corner = draw(rows, own(rows, "fracture_work") / scale, label, arguments.units)
     page.heading(corner, arguments.title, arguments.subtitle)

@@ -1,22 +1,42 @@
-"""What all pictures have in common: colours, type, a page that shows the plane, VTK's rendering on it."""
+"""What all pictures have in common: colours, type, margins, headings, keys, numbers with their units.
+
+Colours are those of Okabe and Ito, maps viridis: told apart by everyone. Keys stand below the axes, never on data.
+"""
 
 import math
-import os
-import subprocess
-import sys
+import warnings
 
 import matplotlib
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
+from matplotlib.legend_handler import HandlerBase
+from matplotlib.patches import Rectangle
+from matplotlib.textpath import TextPath
+from matplotlib.ticker import LogLocator, NullFormatter
 from PIL import Image
 
-# Okabe and Ito's colours, told apart by everyone
 BLUE, VERMILLION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
-RUNS = [BLUE, VERMILLION, GREEN, ORANGE]  # a run and those beside it
+PURPLE, SKY, YELLOW = "#CC79A7", "#56B4E9", "#F0E442"
+RUNS = [BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY]  # a run and those beside it
+MARKERS = ["o", "s", "^", "D", "v", "P"]  # likewise
 INK, GREY, PALE, FACE = "#222222", "#777777", "#C9C9C6", "#F3F3F1"
+SOFT = "#555555"  # of text that stands back
+MAP = "viridis"
+DASHES = (0, (4, 3))
+
+# what a law point does, README "Results": meaning, colour
+ABSENT, OPEN, TIED = -1, 4, 6
+STATUS = {
+    0: ("elastic or sticking", GREY),
+    1: ("cracks in tension", VERMILLION),
+    2: ("cracks or slides, pressed", BLUE),
+    3: ("opens and slides at σ = 0", PURPLE),
+    OPEN: ("open, free of stress", GREEN),
+    5: ("cracked, closed, sticking", INK),
+    TIED: ("open, bridged", ORANGE),
+}
 
 STYLE = {
     "font.family": "DejaVu Sans",
@@ -35,6 +55,8 @@ STYLE = {
     "ytick.labelcolor": INK,
     "xtick.major.width": 0.6,
     "ytick.major.width": 0.6,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
     "grid.color": "#E6E6E3",
     "grid.linewidth": 0.7,
     "legend.frameon": False,
@@ -42,119 +64,121 @@ STYLE = {
     "legend.columnspacing": 1.6,
     "figure.dpi": 180,
 }
+# powers of 1000 of a unit that have a name
+NAMES = {("m", -3): "mm", ("m", -6): "µm", ("m", -9): "nm", ("mm", -3): "µm", ("mm", -6): "nm"}
+NAMES |= {("MPa", -3): "kPa", ("MPa", -6): "Pa", ("MPa", 3): "GPa", ("MN", -3): "kN", ("MN", -6): "N", ("N", 3): "kN"}
 # in inches
 WIDTH, HEIGHT = 6.2, 3.8  # room for the plane
 LEFT, RIGHT, TOP, BOTTOM = 0.75, 0.25, 0.62, 0.5  # margins around it
-BAR = 0.75  # more room on the right, for a colour bar
-KEY = 0.3  # more room below, for a key
-NARROWEST = 4.5  # of a heading
-LOWEST = 1.3  # of a colour bar
-
-FINE = 0.08  # cells smaller than this get paler edges
-OVERSAMPLE = 2  # rendered pixels per printed pixel, averaged on the page
-PROBE = "import pyvista as p; q = p.Plotter(off_screen=True); q.add_mesh(p.Sphere()); q.screenshot(None)"
+KEY, KEY_ROW = 0.3, 0.17  # room for a key, for one more row of it
+CAPTION = 0.2  # room for a name above a graph
+TITLE, SUBTITLE = (10.5, 8.0), (8.5, 7.0)  # type of the heading, as it is and at least [points]
 
 
-def can_render():
-    """Set up the first way of off-screen rendering that works; tried in a child, as VTK crashes without."""
-    for window in ("vtkOSOpenGLRenderWindow", "vtkEGLRenderWindow"):
-        environment = {**os.environ, "VTK_DEFAULT_OPENGL_WINDOW": window}
-        child = subprocess.run([sys.executable, "-c", PROBE], env=environment, capture_output=True)
-        if child.returncode == 0:
-            os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = window
-            return True
-    return False
-
-
-class Page:
-    """A picture of the plane at true proportions, with a heading, and room for a colour bar or a key."""
-
-    def __init__(self, bounds, title, subtitle, bar=0.0, key=0.0):
-        (x0, x1), (y0, y1) = bounds
-        self.inch = max((x1 - x0) / WIDTH, (y1 - y0) / HEIGHT)  # length that one inch stands for
-        air = max(0.0, LOWEST * self.inch - (y1 - y0)) / 2
-        y0, y1 = y0 - air, y1 + air
-        width, height = (x1 - x0) / self.inch, (y1 - y0) / self.inch
-        self.size = (LEFT + max(width, NARROWEST - bar) + bar + RIGHT, key + BOTTOM + height + TOP)
-        self.box = (LEFT, key + BOTTOM, width, height)
-        self.figure = plt.figure(figsize=self.size)
-        self.axis = self.place(*self.box)
-        self.axis.set(xlim=(x0, x1), ylim=(y0, y1))
-        self.axis.locator_params(nbins=6)
-        self.axis.xaxis.set_major_formatter("{x:g}")
-        self.axis.yaxis.set_major_formatter("{x:g}")
-        heading(self.axis, title, subtitle)
-
-    def place(self, left, bottom, width, height):
-        """An axis at a place given in inches."""
-        across, up = self.size
-        return self.figure.add_axes((left / across, bottom / up, width / across, height / up))
-
-    def render(self, meshes, edge, **look):
-        """Let VTK draw the cells of the meshes and their edges into the axis, seen straight from above."""
-        (x0, x1), (y0, y1) = self.axis.get_xlim(), self.axis.get_ylim()
-        pixels = np.array([x1 - x0, y1 - y0]) / self.inch * self.figure.dpi * OVERSAMPLE
-        cells = sum(mesh.n_cells for mesh in meshes)
-        cell = math.sqrt(sum(mesh.area for mesh in meshes) / cells) / self.inch  # size of one on paper
-        plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
-        for mesh in meshes:
-            plotter.add_mesh(mesh, lighting=False, show_scalar_bar=False, **look)
-            edges = mesh.extract_all_edges().translate((0, 0, 1e-3 * (x1 - x0)))
-            ink = {"color": edge, "opacity": min(1.0, cell / FINE), "line_width": 1.1 * OVERSAMPLE}
-            plotter.add_mesh(edges, lighting=False, **ink)
-        centre = ((x0 + x1) / 2, (y0 + y1) / 2)
-        plotter.enable_parallel_projection()
-        plotter.camera_position = [(*centre, x1 - x0), (*centre, 0), (0, 1, 0)]
-        plotter.camera.parallel_scale = (y1 - y0) / 2
-        plotter.camera.clipping_range = (1e-2 * (x1 - x0), 2 * (x1 - x0))
-        image = plotter.screenshot(None, transparent_background=True, return_img=True)
-        plotter.close()
-        place = {"extent": (x0, x1, y0, y1), "aspect": "auto", "zorder": 1}
-        self.axis.imshow(image, interpolation="antialiased", **place)
-
-    def colour_bar(self, levels, colours, label):
-        """A colour bar as high as the plane, to the right of it, with a band between every two levels."""
-        left, bottom, width, height = self.box
-        axis = self.place(left + width + 0.1, bottom, 0.13, height)
-        scale = plt.cm.ScalarMappable(plt.Normalize(levels[0], levels[-1]), colours)
-        ticks = levels[:: math.ceil(0.15 * len(levels) / height)]
-        bar = self.figure.colorbar(scale, cax=axis, label=label, ticks=ticks, format="{x:.12g}")
-        bar.outline.set_visible(False)
-        axis.tick_params(length=0)
-
-    def key(self, handles):
-        """A legend in the row below the axis."""
-        key_below(self.figure, handles)
-
-    def scale_bar(self, left, length, label):
-        """A bar of a length in the plane, with its meaning, in the row below the axis."""
-        inches = {"transform": self.figure.dpi_scale_trans}
-        right, y = left + length / self.inch, KEY / 2
-        self.figure.add_artist(plt.Line2D([left, right], [y, y], color=INK, linewidth=1.4, **inches))
-        self.figure.text(right + 0.07, y, label, va="center", **inches)
-
-
-def graphs(rows, height, columns=1):
-    """A figure as wide as the others, with graphs that share their axes and room for a key; the graphs in a list."""
+def graphs(rows, height, columns=1, raised=0.0, sharex=True, sharey="row"):
+    """A figure as wide as the others, with graphs that share their axes; the graphs in a list."""
     width = LEFT + WIDTH + RIGHT
-    share = {"sharex": True, "sharey": "row", "squeeze": False}
+    share = {"sharex": sharex, "sharey": sharey, "squeeze": False}
     figure, axes = plt.subplots(rows, columns, figsize=(width, height), **share)
     sides = {"left": LEFT / width, "right": 1 - RIGHT / width}
-    figure.subplots_adjust(top=1 - TOP / height, bottom=(BOTTOM + KEY) / height, wspace=0.08, **sides)
+    figure.subplots_adjust(top=1 - (TOP + raised) / height, bottom=BOTTOM / height, wspace=0.08, **sides)
     return figure, list(axes.flat)
 
 
+def grow(figure, inches):
+    """More room below all axes."""
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + inches)
+    for axis in figure.axes:
+        left, bottom, across, up = axis.get_position().bounds
+        axis.set_position((left, (bottom * height + inches) / (height + inches), across, up * height / (height + inches)))
+
+
+class Bar:
+    """An entry of a key that shows a size: a bar of a length and a thickness in points."""
+
+    def __init__(self, label, length, thickness=1.4, colour=INK):
+        self.label, self.length, self.thickness, self.colour = label, length, thickness, colour
+
+    def get_label(self):
+        return self.label
+
+
+class BarHandler(HandlerBase):
+    """How a legend draws a Bar: as large as it is."""
+
+    def legend_artist(self, legend, bar, fontsize, box):
+        box.width = bar.length
+        place = (0, 0.35 * fontsize - bar.thickness / 2)
+        drawn = Rectangle(place, bar.length, bar.thickness, facecolor=bar.colour, linewidth=0)
+        box.add_artist(drawn)
+        return drawn
+
+
 def key_below(figure, handles):
-    """A legend in the row below the axes."""
-    place = {"loc": "lower left", "bbox_to_anchor": (LEFT / figure.get_figwidth(), 0), "borderaxespad": 0.3}
-    figure.legend(handles=handles, ncols=len(handles), **place)
+    """A legend in rows below the axes, the figure grown by what it needs."""
+    left, room = LEFT / figure.get_figwidth(), (figure.get_figwidth() - LEFT - 0.05) * figure.dpi
+    place = {"loc": "lower left", "bbox_to_anchor": (left, 0), "borderaxespad": 0.3, "handler_map": {Bar: BarHandler()}}
+    for columns in range(len(handles), 0, -1):
+        # matplotlib fills columns, people read rows
+        order = [handles[i] for column in range(columns) for i in range(column, len(handles), columns)]
+        labels = [handle.get_label() for handle in order]
+        legend = figure.legend(handles=order, labels=labels, ncols=columns, **place)
+        if columns == 1 or legend.get_window_extent(figure.canvas.get_renderer()).width <= room:
+            break
+        legend.remove()
+    grow(figure, KEY + KEY_ROW * (math.ceil(len(handles) / columns) - 1))
 
 
-def heading(axis, title, subtitle):
-    """Title and, in a smaller and lighter line below it, what the picture shows."""
-    above = {"xy": (0, 1), "xycoords": "axes fraction", "textcoords": "offset points"}
-    axis.annotate(title, xytext=(0, 23), fontsize=10.5, fontweight="bold", **above)
-    axis.annotate(subtitle, xytext=(0, 9), color="#555555", **above)
+def heading(axis, title, subtitle, raised=0.0):
+    """Title and, in a smaller and lighter line below it, what the picture shows; raised where captions stand below [inch]."""
+    figure = axis.figure
+    room = figure.get_figwidth() * (1 - axis.get_position().x0) - 0.05
+    above = {"xy": (0, 1), "xycoords": "axes fraction", "textcoords": "offset points", "linespacing": 1.05}
+    title, size = fitted(title, TITLE, room, "bold")
+    axis.annotate(title, xytext=(0, 23 + 72 * raised), fontsize=size, fontweight="bold", **above)
+    subtitle, size = fitted(subtitle, SUBTITLE, room)
+    axis.annotate(subtitle, xytext=(0, (9 if "\n" not in subtitle else 4) + 72 * raised), fontsize=size, color=SOFT, **above)
+
+
+def fitted(text, sizes, room, weight="normal"):
+    """The text and its size so that it fits into a room: smaller, or in lines where that is not enough."""
+    largest, least = sizes
+    needed = text_width(text, largest, weight)
+    if needed <= room:
+        return text, largest
+    if needed * least / largest <= room:
+        return text, largest * room / needed
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}".strip()
+        if text_width(longer, least, weight) <= room or not lines[-1]:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return "\n".join(lines), least
+
+
+def text_width(text, size, weight="normal"):
+    """Width of a line of text [inch]."""
+    if not text.strip():
+        return 0.0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # letters that the font has not are told when the text is drawn
+        return TextPath((0, 0), text, size=size, prop={"family": STYLE["font.family"], "weight": weight}).get_extents().width / 72
+
+
+def caption(axis, text):
+    """A name above one of several graphs; the heading is to be raised by CAPTION."""
+    above = {"xycoords": "axes fraction", "textcoords": "offset points"}
+    return axis.annotate(text, (0, 1), xytext=(0, 4), fontweight="bold", **above)
+
+
+def mark_ends(axis, start, end):
+    """Texts below the two ends of an axis that runs along an interface."""
+    below = {"xycoords": "axes fraction", "textcoords": "offset points", "color": SOFT, "va": "top"}
+    axis.annotate(start, (0, 0), xytext=(0, -19), ha="left", **below)
+    axis.annotate(end, (1, 0), xytext=(0, -19), ha="right", **below)
 
 
 def sign(label, colour, **look):
@@ -162,23 +186,27 @@ def sign(label, colour, **look):
     return plt.Line2D([], [], label=label, color=colour, solid_capstyle="butt", **look)
 
 
+def plain_log(line):
+    """Plain numbers on a logarithmic axis (axes.xaxis, axes.yaxis), as many as have room."""
+    low, high = line.get_view_interval()
+    line.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 15 * low else (1,), numticks=6))
+    line.set_major_formatter("{x:g}")
+    line.set_minor_formatter(NullFormatter())
+
+
+def picture(figure):
+    """The figure as an image."""
+    figure.canvas.draw()
+    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])
+
+
 def save(figure, path):
     """Write the picture with a palette of 256 colours, which makes it three times smaller."""
-    path.parent.mkdir(exist_ok=True)
-    figure.canvas.draw()
-    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])
-    image = image.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    image = picture(figure).quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
     image.save(path, optimize=True)
     plt.close(figure)
     print(path)
-
-
-def frame(meshes, margin=0.04):
-    """Bounds that hold the meshes and some air around them."""
-    low = np.min([mesh.points[:, :2].min(axis=0) for mesh in meshes], axis=0)
-    high = np.max([mesh.points[:, :2].max(axis=0) for mesh in meshes], axis=0)
-    air = margin * (high - low).max()
-    return (low[0] - air, high[0] + air), (low[1] - air, high[1] + air)
 
 
 def round_down(value):
@@ -193,7 +221,40 @@ def power_of_ten(value):
     return f"${digit}\\times 10^{{{int(exponent)}}}$"
 
 
+def plain(value):
+    """A number for a text: digits, or a power of ten where these would be many."""
+    if value == 0 or 1e-3 <= abs(value) < 1e5:
+        return f"{value:,.12g}"
+    digits, _, exponent = f"{value:.3e}".partition("e")
+    digits = f"{float(digits):g}"
+    return f"$10^{{{int(exponent)}}}$" if digits == "1" else f"${digits}\\times 10^{{{int(exponent)}}}$"
+
+
+def enlarged(factor):
+    """How much larger than it is something is drawn, in words."""
+    if factor == 1:
+        return "as large as it is"
+    return f"enlarged {plain(factor)} times" if factor > 1 else f"reduced to {plain(factor)} of it"
+
+
 def scaled(size, unit):
     """A power of 1000 to divide by so that the size reads well, and the unit that says so."""
-    exponent = 0 if size == 0 or 0.1 <= size < 1 else 3 * math.floor(math.log10(size) / 3)
-    return (1.0, unit) if exponent == 0 else (10.0**exponent, f"$10^{{{exponent}}}$ {unit}")
+    exponent = 0
+    if size > 0 and not 0.1 <= size < 1e4:
+        exponent = 3 * math.floor((math.log10(size) + (1 if size < 1 else 0)) / 3)
+    if exponent == 0:
+        return 1.0, unit
+    return 10.0**exponent, NAMES.get((unit, exponent)) or f"$10^{{{exponent}}}$ {unit}".strip()
+
+
+def unit_of(label, size):
+    """The text of a label without the unit that ends it in brackets, what to divide by, and the unit that says so."""
+    text, _, unit = label.rpartition(" [") if label.endswith("]") else (label, "", "")
+    return text, *scaled(size, unit.removesuffix("]"))
+
+
+def scale_axis(axis, label, size):
+    """Label an axis (axes.xaxis, axes.yaxis), its ticks in a power of 1000 of the unit that ends the label in brackets."""
+    text, factor, unit = unit_of(label, size)
+    axis.set_major_formatter(lambda value, _: f"{value / factor:.6g}".replace("-", "−"))
+    axis.set_label_text(f"{text} [{unit}]" if unit else text)

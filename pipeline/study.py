@@ -7,13 +7,12 @@ import json
 import math
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
 from plotly.offline import get_plotlyjs
 
+import page
+from page import INK, MARKERS, RUNS, VERMILLION
 from page_text import page_text
 
 AGAINST = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}
@@ -40,7 +39,7 @@ def known(points, of_x, of_y):
     return [(x, y, p) for x, y, p in found if x and y and math.isfinite(y)]
 
 
-def page(study, out):
+def write_page(study, out):
     parts = [f"<h1>{page_text(study['title'] or study['study'])}</h1>"]
     for k, (title, of_x) in enumerate(AGAINST.items()):
         figure = go.Figure()
@@ -62,10 +61,11 @@ def page(study, out):
                 name="failed",
                 text=text,
                 hoverinfo="text",
-                marker={"symbol": "x", "color": "#c31"},
+                marker={"symbol": "x", "color": VERMILLION},
             )
         figure.update_layout(
             template="plotly_white",
+            colorway=RUNS,
             xaxis={"type": "log", "title": title},
             yaxis={"type": "log", "exponentformat": "power"},
         )
@@ -79,18 +79,31 @@ def page(study, out):
 
 
 def picture(study, out):
-    figure, axes = plt.subplots(1, len(AGAINST), figsize=(11, 4.2), sharey=True)
-    for axis, (title, of_x) in zip(axes, AGAINST.items()):
-        for measure in study["points"][0]["values"] if study["points"] else []:
+    """Every measure against time and against size; failed points on the upper edge."""
+    plt.rcParams.update(page.STYLE)
+    figure, axes = page.graphs(1, 3.8, columns=len(AGAINST), sharex=False)
+    measures = list(study["points"][0]["values"]) if study["points"] else []
+    names = [ordinate(study, measure)[0] for measure in measures]
+    failed = [point for point in study["points"] if point["status"] not in ("done", "limit")]
+    for axis, (title, of_x) in zip(axes, AGAINST.items(), strict=True):
+        for order, measure in enumerate(measures):
             name, of_y = ordinate(study, measure)
             rows = known(study["points"], of_x, of_y)
-            axis.loglog([x for x, _, _ in rows], [y for _, y, _ in rows], "o", ms=4, label=name)
-        axis.set_xlabel(title)
-        axis.grid(True, alpha=0.3)
-    axes[0].legend(fontsize=8)
-    figure.suptitle(study["title"] or study["study"])
-    figure.tight_layout()
-    figure.savefig(out, dpi=130)
+            look = {"linestyle": "", "marker": MARKERS[order % len(MARKERS)], "markersize": 4, "label": name}
+            axis.plot([x for x, _, _ in rows], [y for _, y, _ in rows], color=RUNS[order % len(RUNS)], **look)
+        axis.set(xscale="log", yscale="log", xlabel=title)
+        axis.grid(True, which="major")
+        page.plain_log(axis.xaxis)
+        places = [of_x(point) for point in failed if of_x(point)]
+        if places:
+            look = {"linestyle": "", "marker": "x", "markersize": 4, "label": "failed", "clip_on": False}
+            axis.plot(places, [1.0] * len(places), color=INK, transform=axis.get_xaxis_transform(), **look)
+    axes[0].set_ylabel(names[0] if len(names) == 1 else "errors" if all("error" in name for name in names) else "measures")
+    keys = {line.get_label(): line for axis in axes for line in axis.get_legend_handles_labels()[0]}
+    if len(keys) > 1:
+        page.key_below(figure, list(keys.values()))
+    page.heading(axes[0], study["title"] or study["study"], f"{len(study['points'])} points, {len(failed)} of them failed")
+    page.save(figure, out)
 
 
 def main():
@@ -98,9 +111,9 @@ def main():
     parser.add_argument("study", type=Path, help="study.json as `midplane study` has written it")
     options = parser.parse_args()
     study = json.loads(options.study.read_text())
-    page(study, options.study.with_suffix(".html"))
+    write_page(study, options.study.with_suffix(".html"))
     picture(study, options.study.with_suffix(".png"))
-    print(f"wrote {options.study.with_suffix('.html')} and {options.study.with_suffix('.png')}")
+    print(options.study.with_suffix(".html"))
 
 
 if __name__ == "__main__":

@@ -2,25 +2,25 @@
 
 import math
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.ticker import NullFormatter
 from plotly.subplots import make_subplots
 
+import page
+from page import BLUE, GREEN, INK, MARKERS, ORANGE, PALE, PURPLE, RUNS, SKY, VERMILLION
 from trade_front import FLOOR, error_of, label
 
 PHASES = {
-    "sweep": "#4477aa",
-    "hypercube": "#ccbb44",
-    "factorial": "#66ccee",
-    "factorial of the two that move most": "#aa3377",
+    "sweep": BLUE,
+    "hypercube": ORANGE,
+    "factorial": SKY,
+    "factorial of the two that move most": PURPLE,
 }
 ANSWERED = ("tolerance", "increments", "refinement")
-FRONT, FAILED, PRESET = "#228833", "#cc3311", "#ee6677"
+FRONT, FAILED, PRESET = GREEN, INK, VERMILLION
 LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
+LAYOUT["colorway"] = RUNS
 
 
 def log_axis(title):
@@ -140,7 +140,7 @@ def answer_figure(scene):
             col=column,
         )
         if scene["exact"] is not None:
-            figure.add_hline(y=scene["exact"], line_dash="dot", line_color="#228833", row=1, col=column)
+            figure.add_hline(y=scene["exact"], line_dash="dot", line_color=FRONT, row=1, col=column)
         figure.update_xaxes(type="log", row=1, col=column)
     title = f"{name} against tolerance, increments (× those of the scene) and refinement"
     figure.update_layout(title=title, **LAYOUT | {"margin": LAYOUT["margin"] | {"t": 90}})
@@ -186,56 +186,68 @@ def penalty_figure(rows):
 
 def save_fronts(scenes, path):
     """All fronts in one picture, for the README."""
-    figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.6), squeeze=False)
-    for axis, (name, scene) in zip(axes[0], scenes.items()):
+    plt.rcParams.update(page.STYLE)
+    columns = min(3, len(scenes))
+    rows = -(-len(scenes) // columns)
+    figure, axes = page.graphs(rows, 0.9 + 2.4 * rows, columns, raised=page.CAPTION, sharex=False, sharey=False)
+    figure.subplots_adjust(wspace=0.26, hspace=0.42)
+    for axis in axes[len(scenes) :]:
+        axis.remove()
+    for axis, (name, scene) in zip(axes, scenes.items(), strict=False):
+        draw_front(axis, scene)
+        page.caption(axis, f"{name}: {scene['case'].split(':')[0]}")
+    for number, axis in enumerate(axes[: len(scenes)]):
+        axis.set(xlabel="time [s]", ylabel="relative error" if number % columns == 0 else "")
+    keys = {line.get_label(): line for axis in axes[: len(scenes)] for line in axis.get_legend_handles_labels()[0]}
+    page.key_below(figure, list(keys.values()))
+    page.heading(axes[0], "Error against time", "all settings that were tried, and the fastest for every error", raised=page.CAPTION)
+    page.save(figure, path)
 
-        def draw(rows, style, at=shown, **options):
-            axis.loglog([row["time"] for row in rows], [at(row) for row in rows], style, **options)
 
-        known, failed = split(scene["points"])
-        presets = split(scene["presets"])[0]
-        draw(known, ".", color="#99b", ms=4, label="all points")
-        level = lambda row: shown(row, scene["floor"])
-        draw(scene["front"], "-D", level, color=FRONT, ms=4, lw=1.2, drawstyle="steps-post", label="front")
-        draw(presets, "*", color=PRESET, ms=9, label="presets")
-        for row in presets:
-            place = {"xytext": (4, 3), "textcoords": "offset points", "fontsize": 7}
-            axis.annotate(row["labels"]["accuracy"], (row["time"], shown(row)), **place)
-        if failed:
-            draw(failed, "x", lambda _: top_of(scene), color=FAILED, ms=5, label="failed")
-        axis.set_title(f"{name}: {scene['case'].split(':')[0]}", fontsize=9)
-        axis.set_xlabel("time [s]", fontsize=8)
-        axis.tick_params(labelsize=7)
-        axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.xaxis.set_major_formatter("{x:g}")
-        axis.xaxis.set_minor_formatter(NullFormatter())
-        axis.grid(True, which="major", alpha=0.3)
-    axes[0][0].set_ylabel("relative error", fontsize=8)
-    axes[0][0].legend(fontsize=7, loc="best")
-    figure.tight_layout()
-    figure.savefig(path, dpi=130)
-    plt.close(figure)
+def draw_front(axis, scene):
+    """All points of a scene, its front, its presets by name, failed points on the upper edge."""
+
+    def draw(rows, at=shown, **look):
+        axis.plot([row["time"] for row in rows], [at(row) for row in rows], **look)
+
+    known, failed = split(scene["points"])
+    presets = split(scene["presets"])[0]
+    alone = {"linestyle": ""}
+    draw(known, marker="o", markersize=1.8, color=PALE, label="all points", zorder=1, **alone)
+    level = lambda row: shown(row, scene["floor"])
+    front = {"marker": "D", "markersize": 3, "linewidth": 1.1, "drawstyle": "steps-post", "zorder": 3}
+    draw(scene["front"], level, color=FRONT, label="front", **front)
+    draw(presets, marker="*", markersize=7, color=PRESET, label="presets", zorder=4, **alone)
+    for number, row in enumerate(presets):
+        place = {"xytext": (4, -9 if number % 2 else 4), "textcoords": "offset points", "fontsize": 7}
+        axis.annotate(row["labels"]["accuracy"], (row["time"], shown(row)), **place)
+    if failed:
+        draw(failed, lambda _: top_of(scene), marker="x", markersize=4, color=FAILED, label="failed", **alone)
+    axis.set(xscale="log", yscale="log")
+    page.plain_log(axis.xaxis)
+    axis.yaxis.set_minor_formatter(NullFormatter())
+    axis.grid(True, which="major")
 
 
 def save_penalty(rows, path):
     """Traction error against stiffness, for the README."""
-    figure, axis = plt.subplots(figsize=(6.5, 4))
-    colours = {}
+    plt.rcParams.update(page.STYLE)
+    figure, (axis,) = page.graphs(1, 4.2)
+    meshes = list(dict.fromkeys(key[:2] for key in groups(rows)))
     for (element, edges, coupling), group in groups(rows).items():
-        colour = colours.setdefault((element, edges), f"C{len(colours)}")
-        style = "-o" if coupling == "projected" else ":s"
-        axis.loglog(
-            [r["stiffness_number"] for r in group],
-            [r["error"] for r in group],
-            style,
-            color=colour,
-            ms=3,
+        mesh = meshes.index((element, edges))
+        axis.plot(
+            [row["stiffness_number"] for row in group],
+            [row["error"] for row in group],
+            linestyle="-" if coupling == "projected" else ":",
+            marker=MARKERS[mesh % len(MARKERS)],
+            markersize=3,
+            color=RUNS[mesh % len(RUNS)],
+            linewidth=1.2,
             label=f"{element} {edges} {coupling}",
         )
-    axis.set_xlabel("K_N h/E")
-    axis.set_ylabel("L2 error of the tractions")
-    axis.grid(True, alpha=0.3)
-    axis.legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(path, dpi=130)
-    plt.close(figure)
+    axis.set(xscale="log", yscale="log", xlabel="stiffness number $K_N h/E$", ylabel="relative error")
+    axis.grid(True, which="major")
+    page.key_below(figure, axis.get_legend_handles_labels()[0])
+    page.heading(axis, "Stiff springs and two couplings", "L2 error of the tractions of the strip; dotted: pointwise")
+    page.save(figure, path)

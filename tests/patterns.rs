@@ -2,6 +2,7 @@
 
 use crate::common::*;
 use midplane::history::ModelState;
+use midplane::mesh::{Facet, Group};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
 
@@ -162,6 +163,43 @@ fn quantities_of_interfaces_are_those_of_their_law_points() {
     }
     assert!(values[0] > values[2] && values[2] > values[1]);
     assert_eq!(values[6..8], [0.0, 0.0]);
+}
+
+/// Claim: a pattern names the curves of a side, and those along which bodies are opened, as a list of them does.
+#[test]
+fn patterns_name_curves_of_interfaces() {
+    let block = |k: usize, n: usize| {
+        let y = 0.5 * k as f64;
+        let mut mesh =
+            rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 4), Shape::Quadrilateral4, |x, y| [x, y]);
+        // along the middle
+        let row = |i: usize| 2 * (n + 1) + i;
+        let edges = (0..n).map(|i| Facet::edge(&[row(i), row(i + 1)], n + i, false)).collect();
+        mesh.groups.insert("middle".into(), Group::Edges(edges));
+        mesh
+    };
+    let joined = |middle: &str, upper: &str| {
+        let text = format!(
+            r#"{{ "plane": "strain",
+              "subdomains": {{ "base": {{ "msh": "0", "material": "m" }}, "brick_1": {{ "msh": "1", "material": "m" }},
+                               "brick_2": {{ "msh": "2", "material": "m" }} }},
+              "materials": {{ "m": {{ "young": 1e4, "poisson": 0.2 }} }},
+              "interfaces": {{ "m": {{ "within": {middle}, "law": {ELASTIC} }}, "low": {{ "between": ["base", "brick_1"], "law": {ELASTIC} }},
+                               "j": {{ "side_a": "brick_1.top", "side_b": {upper}, "law": {ELASTIC} }} }},
+              "steps": [ {{ "name": "s", "fix": {{ "base.bottom": ["x", "y"] }}, "load": {{ "brick_2.top": {{ "traction": [1, -2] }} }} }} ] }}"#
+        );
+        bind(&text, vec![block(0, 4), block(1, 5), block(2, 3)])
+    };
+    let names = |problem: &Problem| -> Vec<String> {
+        problem.model.interfaces.iter().map(|interface| interface.name.clone()).collect()
+    };
+    let list = joined(r#"["brick_1.middle", "brick_2.middle"]"#, r#""brick_2.bottom""#).unwrap();
+    let pattern = joined(r#""brick_?.mid*""#, r#""*_2.bott*""#).unwrap();
+    assert_eq!(list.model.interfaces.len(), 4);
+    assert_eq!(names(&list), names(&pattern));
+    assert_eq!(solve(&list).0[0].snapshot.u, solve(&pattern).0[0].snapshot.u);
+    let message = joined(r#""brick_?.mid""#, r#""brick_2.bottom""#).unwrap_err().to_string();
+    assert!(message.contains("no curve is called like \"brick_?.mid\""), "{message}");
 }
 
 #[test]

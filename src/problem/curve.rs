@@ -82,8 +82,12 @@ pub(super) fn side(
 ) -> Result<Vec<Curve>> {
     let path = ["interfaces", entry, key];
     let mut curves = Vec::new();
+    let mut groups = Vec::new();
+    for name in names.names() {
+        groups.extend(groups::matching(scene, model, &path, name, Some("curve"))?);
+    }
     let mut owner: HashMap<(usize, usize, usize), &str> = HashMap::new();
-    for group in names.names() {
+    for group in &groups {
         let (subdomain, edges) = groups::curve(scene, model, &path, group)?;
         for edge in edges {
             if let Some(other) = owner.insert((subdomain, edge.nodes()[0], edge.nodes()[1]), group) {
