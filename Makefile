@@ -84,6 +84,24 @@ results/dam/.levels: results/dam/.checked results/dam_flow/.checked results/dam_
 	    --compare=workshop=results/dam_workshop --within=1e-8
 	@touch $@
 
+# 24 courses of 12 bricks and half ones, as coarse as they may be
+WALL := results/wall300
+wall-300: $(MIDPLANE) $(VENV)  ## a wall of 300 bricks, each a mesh of its own, pushed to failure, some minutes: results/wall300/
+	mkdir -p $(WALL)
+	python3 pipeline/wall.py --courses 24 --bricks 12 --edges 1 2 --rows 1 --push 4.5e-3 --fields last \
+	    --geo ../../geo/masonry_wall/brick.geo > $(WALL)/scene.json
+	$(MIDPLANE) run $(WALL)/scene.json -o $(WALL)
+	$(PYTHON) pipeline/check_outputs.py $(WALL)/scene.json $(WALL) @geo/masonry_wall/wall300.args
+	$(PYTHON) pipeline/draw.py $(WALL)/scene.json $(WALL)
+	$(PYTHON) pipeline/history.py $(WALL)/scene.json $(WALL) --x=push="push of the beam [m]" --y=force="force [MN]"
+
+generated:        # the files of the gallery that a program has written are those that it writes
+	@for top in load height free; do \
+	    python3 pipeline/wall.py --top $$top | cmp - geo/masonry_wall/$$(echo $$top | sed s/load/scene/).json || exit; \
+	done
+	@mkdir -p $(TARGET)/aggregate && python3 pipeline/aggregate.py $(TARGET)/aggregate > /dev/null
+	@for file in aggregates mortar; do cmp $(TARGET)/aggregate/$$file.geo geo/aggregate/$$file.geo || exit; done
+
 animate-%: results/%/.checked  ## results/<scene>/pictures/displacement.gif: the stored rows, one after the other
 	$(PYTHON) pipeline/animate.py geo/$*/scene.json results/$*
 
@@ -253,7 +271,7 @@ verify: | tools   ## errors and rates against exact solutions, written to docs/V
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
 	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
 
-lint:             ## format and clippy, warnings are errors; advisories and licences of what is used
+lint: generated   ## format and clippy, warnings are errors; advisories and licences of what is used
 	cargo fmt --check -p midplane -p midplane-fuzz -p midplane-mutants
 	python3 pipeline/advisories.py check
 	python3 pipeline/licences.py check
@@ -274,6 +292,18 @@ docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/dcb/pictures/history.png docs/dcb_path.png
 	cp results/dcb/pictures/traction_joint.png docs/dcb_traction.png
 	cp results/friction_block/pictures/traction_joint.png docs/friction_block_traction.png
+	mkdir -p docs/gallery
+	cp results/dam/pictures/dam.png docs/gallery/dam.png
+	cp results/masonry_wall_height/pictures/interfaces.png docs/gallery/masonry_wall.png
+	cp results/aggregate/pictures/interfaces.png docs/gallery/aggregate.png
+	cp results/aggregate_shear/pictures/interfaces.png docs/gallery/aggregate_shear.png
+	cp results/mixed_beam/pictures/displacement.png docs/gallery/mixed_beam.png
+	cp results/sneddon/pictures/displacement.png docs/gallery/sneddon.png
+	cp results/hertz/pictures/traction_joint.png docs/gallery/hertz.png
+	cp results/lining/pictures/principal_stress.png docs/gallery/lining.png
+	for scene in half_notched_beam pull_out delamination notched_beam; do \
+	    cp results/$$scene/pictures/history.png docs/gallery/$$scene.png || exit; \
+	done
 
 clean:            ## remove everything made here: results, build, Python environment
 	rm -rf results .venv
@@ -289,4 +319,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

@@ -374,8 +374,7 @@ def check(results, scene, energy, known, faults):
         return ""
     energies = check_energies(results / "history.csv", scene, results, summary, rows, energy, faults)
     fields = interfaces.get(last, {})
-    residual = rows[-1]["residual"] if rows else 0.0
-    whole, part = check_balance(results, scene, summary, fields, residual, faults)
+    whole, part = check_balance(results, scene, summary, rows, fields, faults)
     check_known(results, rows, fields, known, faults)
     return (
         f"{len(files)} VTU files, increments: {len(rows)}; loads and reactions balance to {whole:.1e}, "

@@ -99,7 +99,7 @@ def main():
     others = []
     for other in arguments.compare:
         label, _, folder = other.partition("=")
-        others.append((label, Results(Path(folder), scene)))
+        others.append((label, Results(Path(folder), scene, beside=True)))
     joined = results.joined(View())
     own = joined if len(results.interfaces) <= FEW else []
     if arguments.interface:

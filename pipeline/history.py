@@ -193,7 +193,8 @@ def prepare(arguments, scene):
         x = names[0]
         last = max(np.abs(run[x]).max() for _, run in runs)
         if abs(arguments.until) < last:
-            subtitle += f"; the run goes on to {page.plain(last)}"
+            _, factor, unit = page.unit_of(arguments.x[1], last)
+            subtitle += f"; the run goes on to {last / factor:.3g} {unit}".rstrip()
         runs = [(label, until(run, x, arguments.until)) for label, run in runs]
     band = arguments.measured and (arguments.scene.parent / arguments.measured[0], arguments.measured[1])
     return runs, solution, band, subtitle

@@ -12,6 +12,7 @@ from plane import Page
 INTACT, TOUCHING = 0.9, 1.8  # thickness of the lines where faces touch [points]
 WIDEST = (0.05, 0.16)  # the largest opening on paper [inch], as interfaces are short or long
 NAMED = 6  # interfaces whose names and ends are written at them
+CLOSE = 0.25  # interfaces with names and marked ends are farther apart than this on paper [inch]
 ROOM = 0.5  # an interface with marked ends is as long as this on paper [inch]
 
 
@@ -107,7 +108,9 @@ def draw_name(sheet, axis, name, courses):
     """The name of an interface beside its middle and its ends @0 and @1, where there is room."""
     line, others = courses[name], [other for key, other in courses.items() if key != name]
     length = np.hypot(*np.diff(line, axis=0).T).sum()
-    if length < ROOM * sheet.inch:
+    middle = line[len(line) // 2]
+    crowded = any(np.hypot(*(other - middle).T).min() < CLOSE * sheet.inch for other in others)
+    if length < ROOM * sheet.inch or crowded:
         return
     look = {"fontsize": 7.5, "color": SOFT, "zorder": 6, "clip_on": sheet.cut, "path_effects": labels.HALO}
     if np.hypot(*(line[-1] - line[0])) < 1e-6 * length:
@@ -119,9 +122,9 @@ def draw_name(sheet, axis, name, courses):
         meets = any(np.hypot(*(other - place).T).min() < 0.1 * sheet.inch for other in others)
         draw_beside(axis, text, place, way, look, meets)
     if page.text_width(name, 7.5) < 0.6 * length / sheet.inch:
-        middle = len(line) // 2
-        along = line[min(middle + 1, len(line) - 1)] - line[middle - 1]
-        draw_beside(axis, name, line[middle], np.array([-along[1], along[0]]), look)
+        k = len(line) // 2
+        along = line[min(k + 1, len(line) - 1)] - line[k - 1]
+        draw_beside(axis, name, middle, np.array([-along[1], along[0]]), look)
 
 
 def draw_beside(axis, text, place, way, look, back=False):

@@ -12,19 +12,19 @@ from page import ABSENT
 
 
 class Results:
-    """One stored row of one results folder, the last if none is named."""
+    """One stored row of one results folder, the last if none is named; beside others it may have parts that the scene has not."""
 
-    def __init__(self, folder, scene, row=None):
+    def __init__(self, folder, scene, row=None, beside=False):
         self.folder, self.scene = folder, scene
         self.pictures = folder / "pictures"
         files = {path.stem.rpartition("_")[::2]: path for path in sorted(folder.glob("fields/*_*.vtu"))}
         self.rows = sorted({int(number) for _, number in files})
         self.row = row if row is not None or not self.rows else self.rows[-1]
         fields = {name: pyvista.read(path) for (name, number), path in files.items() if int(number) == self.row}
-        self.subdomains = {name: mesh for name, mesh in fields.items() if name in scene["subdomains"]}
-        self.interfaces = {name: points for name, points in fields.items() if name not in self.subdomains}
-        strange = [name for name, points in self.interfaces.items() if "status" not in points.array_names]
-        if strange:
+        self.interfaces = {name: points for name, points in fields.items() if "status" in points.array_names}
+        self.subdomains = {name: mesh for name, mesh in fields.items() if name not in self.interfaces}
+        strange = [name for name in self.subdomains if name not in scene["subdomains"]]
+        if strange and not beside:
             raise SystemExit(f"{folder}: results of another scene, this one has no subdomain {strange[0]}")
 
     def bodies(self, view):

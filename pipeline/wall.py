@@ -34,7 +34,7 @@ SCENE = """\
 // 210 x 52 x 100 mm, joints of 10 mm, which have no thickness here, so that the bricks are 220 x 62 mm; Poisson's ratio of the
 // bricks; all numbers of the joints but one; 0.3 MPa on top.
 // Chosen: {courses} courses of {bricks:g} bricks (J4D: 16 of 4.5); bricks of 16 700 MPa that do not crack{unless};
-// no dilatancy under pressure; base and beam rigid, a thousand times stiffer than the bricks.
+// no dilatancy under pressure; base and beam rigid, a hundred times stiffer than the bricks.
 {{
   "$schema": "{schema}",
   "title": "{title}",
@@ -45,7 +45,7 @@ SCENE = """\
   }},
   "materials": {{
     "brick": {{ "young": 1.67e4, "poisson": 0.15 }},
-    "rigid": {{ "young": 1.67e7, "poisson": 0.0 }}
+    "rigid": {{ "young": 1.67e6, "poisson": 0.0 }}
   }},
   "interfaces": {{
     // bed and head joints, those on the base and below the beam too
