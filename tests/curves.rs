@@ -286,3 +286,21 @@ fn loops_start_where_nodes_are_closest() {
 fn even_parts(n: usize, from: f64) -> Vec<f64> {
     (0..=n).map(|i| from + i as f64 / n as f64).collect()
 }
+
+/// Claim: of sides in several parts the distance of those farthest apart is told, wherever they stand.
+#[test]
+fn the_largest_distance_of_several_parts_is_told() {
+    let line = |from: f64, y: f64, forward: bool| {
+        let t: Vec<f64> = (0..5).map(|i| i as f64 / 4.0).collect();
+        Curve::new(&t, false, false, forward, &|t| [from + t, y])
+    };
+    for apart in [[1e-3, 0.0], [0.0, 1e-3], [1e-3, 5e-4]] {
+        let a = [line(0.0, 0.0, false), line(2.0, 0.0, false)];
+        let b = [line(0.0, apart[0], true), line(2.0, apart[1], true)];
+        let c = join(&[&a[0], &a[1]], &[&b[0], &b[1]], ALL[0]).unwrap();
+        let least = apart[0].min(apart[1]);
+        assert!((c.midplane.apart - 1e-3).abs() < 1e-12, "{apart:?}: {}", c.midplane.apart);
+        let [low, high] = c.midplane.gap;
+        assert!((low - least).abs() < 1e-12 && (high - 1e-3).abs() < 1e-12, "{apart:?}: {low} {high}");
+    }
+}

@@ -108,6 +108,9 @@ fn forces_are_held_and_let_go() {
             let last = states.last().unwrap();
             assert!(top(&problem, last, 1).abs() < 1e-30);
             assert!(last.snapshot.stresses[1].cells.iter().flatten().all(|s| s.abs() < 1e-30));
+            // nothing is left of what joined them
+            assert!(last.snapshot.jumps[0].iter().all(|jump| jump.norm() == 0.0));
+            assert!(last.snapshot.states[0].iter().all(|state| state.jump_plastic.norm() == 0.0));
             // a alone stores γ²/6E, whatever was there between
             close(last.stored, GAMMA[0] * GAMMA[0] / (6.0 * E), 1e-9, 0.01, "stored");
         }

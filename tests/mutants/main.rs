@@ -64,9 +64,18 @@ fn returned(output: &ReturnType) -> Vec<&'static str> {
     }
 }
 
-/// Other operators of the same type.
-fn others(op: &BinOp) -> &'static [&'static str] {
+/// True if a text is a count, as far as it can be seen: numbers with a point are equal by chance only, and what happens then is not seen.
+fn counts(text: &str) -> bool {
+    text.ends_with(".len()") || text.ends_with("count") || text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Other operators of the same type; `ties`: it may matter what happens where both sides are equal.
+fn others(op: &BinOp, ties: bool) -> &'static [&'static str] {
     match op {
+        BinOp::Lt(_) if !ties => &[">"],
+        BinOp::Le(_) if !ties => &[">"],
+        BinOp::Gt(_) if !ties => &["<"],
+        BinOp::Ge(_) if !ties => &["<"],
         BinOp::Add(_) => &["-"],
         BinOp::Sub(_) => &["+"],
         BinOp::Mul(_) => &["/"],
@@ -128,7 +137,8 @@ impl<'ast> Visit<'ast> for Sites<'_> {
 
     fn visit_expr_binary(&mut self, node: &'ast syn::ExprBinary) {
         if !binds(&node.left) && !binds(&node.right) {
-            for other in others(&node.op) {
+            let ties = [&node.left, &node.right].into_iter().any(|side| counts(self.of(side)));
+            for other in others(&node.op, ties) {
                 let wrong = format!("{} {other} {}", self.of(&node.left), self.of(&node.right));
                 self.expression("operator", node, wrong);
             }
