@@ -22,6 +22,8 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import scene_file
+
 ROOT = Path(__file__).resolve().parent.parent
 SECONDS = 10.0
 MEMORY = 1 << 30
@@ -81,7 +83,7 @@ class Inputs:
             folder = out / "good" / name
             shutil.copytree(ROOT / "geo" / name, folder)
             subprocess.run([program, "mesh", folder, "-o", folder / "out", "-q"], check=True)
-            scene = json.loads(re.sub(r"(?m)^\s*//.*$", "", (folder / "scene.json").read_text()))
+            scene = scene_file.read(folder / "scene.json")
             meshes = {path.name.rsplit("-", 1)[0]: path for path in sorted((folder / "out/mesh").glob("*.msh"))}
             for part, content in scene["subdomains"].items():
                 # meshes stand for themselves, so that a damaged one is read as it is

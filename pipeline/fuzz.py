@@ -20,6 +20,8 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import scene_file
+
 ROOT = Path(__file__).resolve().parent.parent
 CORPUS = ROOT / "tests/fuzz/corpus"
 CORPUS_FILES = 60  # of a target
@@ -48,10 +50,6 @@ def shrunk(scene):
     return json.dumps(scene)
 
 
-def plain(path):
-    return json.loads(re.sub(r"(?m)^\s*//.*$", "", path.read_text()))
-
-
 class Seeds:
     """Inputs to begin with, in a folder for each target, and the folder in which scenes and studies stand."""
 
@@ -61,9 +59,9 @@ class Seeds:
         for target in TARGETS:
             (self.begin / target).mkdir(parents=True)
         self.meshes(programs / "midplane", out / "meshes")
-        laws, paths = {}, [plain(path) for path in sorted((ROOT / "geo").glob("*/path.json"))]
+        laws, paths = {}, [scene_file.read(path) for path in sorted((ROOT / "geo").glob("*/path.json"))]
         for file in sorted((ROOT / "geo").glob("*/*.json")):
-            content = plain(file)
+            content = scene_file.read(file)
             if file.name.endswith("study.json"):
                 content["scene"] = "scene.json"
                 self.add("study", file.parent.name, shrunk(content))
@@ -84,7 +82,7 @@ class Seeds:
         for name, coarse in SCENES.items():
             settings = [f"--set=subdomains.{part}.parameters.{one}" for part, all_of in coarse.items() for one in all_of.split()]
             subprocess.run([midplane, "mesh", ROOT / "geo" / name, "-o", out / name, "-q", *settings], check=True)
-            scene = plain(ROOT / "geo" / name / "scene.json")
+            scene = scene_file.read(ROOT / "geo" / name / "scene.json")
             made = {path.name.rsplit("-", 1)[0]: path for path in sorted((out / name / "mesh").glob("*.msh"))}
             for part, content in scene["subdomains"].items():
                 own = made.get(part) or made[Path(content["geo"]).stem]
