@@ -171,11 +171,11 @@ damage-test: $(MIDPLANE)  ## ten thousand damaged scenes, geometries, meshes, st
 damage-test-quick: $(MIDPLANE)  ## a few hundred of them
 	python3 pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
 
+# a screen that is not there yet when it is asked for is asked for once more
 test-paraview: $(addprefix results/,masonry/.solved tension/.solved)  ## open and play results in ParaView, save pictures; installs it
 	pipeline/tools.sh paraview
-	for scene in tension masonry; do \
-	    xvfb-run -a pvpython pipeline/test_paraview.py results/$$scene results/paraview || exit; \
-	done
+	play() { xvfb-run -a pvpython pipeline/test_paraview.py results/$$1 results/paraview; }; \
+	for scene in tension masonry; do play $$scene || play $$scene || exit; done
 
 # the targets share all that they depend on with the program; only the crates of this workspace have the fuzzer's counters
 fuzz-build: $(MIDPLANE)
