@@ -32,7 +32,7 @@ beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
 
 # limits $1, $2: options for the check of a scene, folder and name of the file
 limits = $(addprefix @,$(firstword $(wildcard geo/$1/$2.check.args geo/$1/check.args)))
-CHECKING := $(addprefix pipeline/,check_outputs.py known.py energies.py statics.py joints.py)
+CHECKING := $(addprefix pipeline/,check_outputs.py known.py energies.py statics.py joints.py scene_file.py)
 
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
@@ -79,7 +79,7 @@ results/shear/.example2: pipeline/example2.py $(DRAWING)
 
 # the dam in three files, beside crack lengths that were published
 dam: results/dam/.levels
-results/dam/.levels: results/dam/.checked results/dam_flow/.checked results/dam_workshop/.checked pipeline/dam.py $(PICTURES)
+results/dam/.levels: results/dam/.checked results/dam_flow/.checked results/dam_workshop/.checked pipeline/dam.py $(DRAWING)
 	$(PYTHON) pipeline/dam.py geo/dam/scene.json results/dam --compare=flow=results/dam_flow \
 	    --compare=workshop=results/dam_workshop --within=1e-8
 	@touch $@
@@ -95,14 +95,20 @@ wall-300: $(MIDPLANE) $(VENV)  ## a wall of 300 bricks, each a mesh of its own, 
 	$(PYTHON) pipeline/draw.py $(WALL)/scene.json $(WALL)
 	$(PYTHON) pipeline/history.py $(WALL)/scene.json $(WALL) --x=push="push of the beam [m]" --y=force="force [MN]"
 
-generated:        # the files of the gallery that a program has written are those that it writes
+generated: $(VENV) # what programs have written into the gallery is what they write
 	@for top in load height free; do \
 	    python3 pipeline/wall.py --top $$top | cmp - geo/masonry_wall/$$(echo $$top | sed s/load/scene/).json || exit; \
 	done
 	@mkdir -p $(TARGET)/aggregate && python3 pipeline/aggregate.py $(TARGET)/aggregate > /dev/null
+	@for file in scene slip; do \
+	    ! $(PYTHON) pipeline/exact_lining.py geo/lining/$$file.json | \
+	        grep -vxFf geo/lining/$$(echo $$file.check.args | sed s/scene.//) || exit; \
+	done
+	@! $(PYTHON) pipeline/exact_delamination.py geo/delamination | grep ^-- | \
+	    grep -vxFf geo/delamination/check.args | grep -vxFf geo/delamination/enf.check.args
 	@for file in aggregates mortar; do cmp $(TARGET)/aggregate/$$file.geo geo/aggregate/$$file.geo || exit; done
 
-animate-%: results/%/.checked  ## results/<scene>/pictures/displacement.gif: the stored rows, one after the other
+animate-%: results/%/.checked  ## results/<scene>/pictures/displacement.gif: the stored rows of its scene.json
 	$(PYTHON) pipeline/animate.py geo/$*/scene.json results/$*
 
 law: $(addprefix results/law/,shear.png closing.png)  ## drive one point of the cracking law along geo/{shear,closing}/path.json and draw it
@@ -311,7 +317,7 @@ clean:            ## remove everything made here: results, build, Python environ
 
 help:             ## this list
 	@echo "make [target]; without one: all"
-	@sed -nE 's/^([a-z%-]+):[^#]*## /  \1\t/p' Makefile | expand -t 18
+	@sed -nE 's/^([a-z0-9%-]+):[^#]*## /  \1\t/p' Makefile | expand -t 18
 	@for name in $(SCENES); do \
 	    printf '  %s\t%s\n' "$$name" "$$(sed -nE 's/^ *"title": "(.*)",/\1/p' geo/$$name/scene.json)"; \
 	done | expand -t 18

@@ -51,6 +51,9 @@ class Film:
         step = arguments.every or -(-len(stored) // MOST)
         self.rows = sorted({*stored[::step], stored[-1]})
         self.states = [Results(arguments.results, scene, row) for row in self.rows]
+        # parts that come later are shown from then on
+        self.states = [state for state in self.states if state.has(self.view)] or self.states
+        self.rows = [state.row for state in self.states]
         self.bodies = [list(state.bodies(self.view).values()) for state in self.states]
         self.columns = history_columns(arguments)
         self.changing = []
@@ -90,6 +93,8 @@ class Film:
         bounds = self.view.zoom or plane.frame(every, margin=0.1)
         names = [state.joined(self.view) for state in self.states]
         fields = [state.interfaces[name] for state, here in zip(self.states, names, strict=True) for name in here]
+        if not fields:
+            raise SystemExit("no interface lies in the picture")
         self.factor = interfaces.factor_of(fields, self.view, plane.largest_scale(bounds, 1))
         subtitle = f"{self.view.part()}status as colour, opening as thickness, {page.enlarged(self.factor)}"
         self.page(bounds, title, subtitle, self.status_keys())
@@ -186,12 +191,20 @@ def write_mp4(images, path, seconds):
     subprocess.run(command, input=b"".join(image.tobytes() for image in frames), check=True)
 
 
+def positive(text):
+    """A number of rows."""
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/masonry/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/masonry")
     parser.add_argument("--field", choices=FIELDS, default=FIELDS[0], help="what is drawn, default: displacement")
-    parser.add_argument("--every", type=int, metavar="N", help=f"every Nth stored row, default: at most {MOST} frames")
+    parser.add_argument("--every", type=positive, metavar="N", help=f"every Nth stored row, default: at most {MOST} frames")
     axis = {"type": history.column, "metavar": "COLUMN=LABEL"}
     parser.add_argument("--x", help="abscissa of the history, default: that of history.args", **axis)
     parser.add_argument("--y", help="its ordinate", **axis)

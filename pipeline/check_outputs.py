@@ -177,6 +177,10 @@ def check_interface(path, grid, law, variables, water, faults):
     faults.expect((grid["length"] > 0).all(), f"{path}: a law point has no length")
     faults.expect(np.isin(grid["status"], STATUSES).all(), f"{path}: status not in {STATUSES[0]} ... {STATUSES[-1]}")
     faults.expect(np.isin(grid["condition"], CONDITIONS).all(), f"{path}: condition not in {CONDITIONS[0]} ... {CONDITIONS[-1]}")
+    sides = [grid[f"displacement_{side}"] for side in "ab"]
+    size = max(np.abs(sides).max(), np.finfo(float).tiny)
+    middle = np.abs(grid["displacement"] - 0.5 * (sides[0] + sides[1])).max() <= ROUND_OFF * size
+    faults.expect(middle, f"{path}: displacement is not the mean of those of the sides")
     absent = grid["status"] == ABSENT
     faults.expect(((grid["condition"] == ABSENT) == absent).all(), f"{path}: status and condition differ in what is there")
     # across a gap at the start the irreversible jump is that at which the faces meet

@@ -50,7 +50,7 @@ def pushes(scene, run):
 def off_statics(scene, folder, run):
     """Largest error of normal force, shear force and moment about the heel over the rows stored, of the dam's weight and its moment."""
     own, turned = weight(scene)
-    largest = 0.0
+    largest, compared = 0.0, 0
     for row, (thrust, moment) in enumerate(pushes(scene, run)):
         path = folder / "fields" / f"base_{row:04d}.vtu"
         # before the dam has its weight there is nothing to compare
@@ -64,7 +64,9 @@ def off_statics(scene, folder, run):
             (length @ shear - thrust) / own,
             (length @ (normal * field.points[:, 0]) + turned + moment) / turned,
         )
-        largest = max(largest, *np.abs(errors))
+        largest, compared = max(largest, *np.abs(errors)), compared + 1
+    if not compared:
+        sys.exit(f"{folder}: no row to compare with statics")
     return largest
 
 

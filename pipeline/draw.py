@@ -105,6 +105,8 @@ def main():
     if arguments.interface:
         own = [name for name in chosen(arguments.results, "interface", arguments.interface, results.interfaces) if name in joined]
     exact = exact_tractions(arguments, scene, results)
+    if arguments.within is not None and not any(exact[name] for name in joined):
+        print(f"{arguments.results}: no exact tractions here, nothing to compare")
     for name in joined:
         if name in own:
             entry = entry_of(scene, name)

@@ -9,7 +9,6 @@ ISO 15024 and ASTM D5528), by 0.42 χ h in mode II. A strength that is finite lo
     python pipeline/exact_delamination.py geo/delamination     forces, as options for check_outputs.py
 """
 
-import re
 import sys
 from pathlib import Path
 
@@ -18,11 +17,6 @@ import numpy as np
 import scene_file
 
 MANY = 4000
-
-
-def constants(path):
-    """The numbers of a `.geo` by name."""
-    return {name: float(value) for name, value in re.findall(r"(\w+)\s*=\s*\{([-\d.]+),", path.read_text())}
 
 
 def smeared(scene, layer):
@@ -71,7 +65,7 @@ def main():
     folder = Path(sys.argv[1])
     for name, *rest in (("scene", "I", (0.02, 0.03, 0.01), (6.5, 6.9)), ("enf", "II", (0.05, 0.03, 0.03), (3.45, 3.6))):
         scene = scene_file.read(folder / f"{name}.json")
-        sizes = constants(folder / "arm.geo") | scene["subdomains"]["lower1"]["parameters"]
+        sizes = scene_file.constants(folder / "arm.geo") | scene["subdomains"]["lower1"]["parameters"]
         print(f"{folder / name}.json", *options(scene, sizes, *rest), sep="\n")
 
 

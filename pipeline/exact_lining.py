@@ -6,7 +6,6 @@ Radial joints that are stiff and pressed are no more than sections of the ring. 
     python pipeline/exact_lining.py geo/lining/scene.json     N, M, V at every joint, as options for check_outputs.py
 """
 
-import re
 import sys
 from pathlib import Path
 
@@ -121,15 +120,10 @@ class Lining:
         return self.ground.even(self.outer)[2] @ even + amplitude * np.cos(2 * angle)
 
 
-def constants(path):
-    """The numbers of a `.geo` by name."""
-    return {name: float(value) for name, value in re.findall(r"(\w+)\s*=\s*\{([-\d.]+),", path.read_text())}
-
-
 def of_scene(path):
     """The solution, and the angle of every joint by the numbers of its two segments."""
     scene = scene_file.read(path)
-    segment, ground = (constants(path.parent / name) for name in ("segment.geo", "ground.geo"))
+    segment, ground = (scene_file.constants(path.parent / name) for name in ("segment.geo", "ground.geo"))
     outer = segment["radius"]
     solution = Lining(scene, (outer - segment["thickness"], outer, outer * ground["extent"]))
     parts = {name[-1]: part["parameters"] for name, part in scene["subdomains"].items() if name.startswith("segment")}

@@ -48,7 +48,10 @@ class Formula:
                 return row[name] if row else 1.0
             case ast.BinOp(left=left, op=op, right=right) if type(op) in OPERATORS:
                 values = self.value(left, row), self.value(right, row)
-                return OPERATORS[type(op)](*values) if row else 1.0
+                result = OPERATORS[type(op)](*values) if row else 1.0
+                if isinstance(result, complex):
+                    raise ValueError(f"{ast.unparse(node)} is no real number")
+                return result
             case ast.UnaryOp(op=op, operand=operand) if type(op) in OPERATORS:
                 return OPERATORS[type(op)](self.value(operand, row))
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in FUNCTIONS and args:
@@ -136,6 +139,10 @@ class Every:
             except KeyError as name:
                 faults.expect(False, f"{results}: no column {name}")
                 return
+            except (ArithmeticError, ValueError) as fault:
+                wanted = f"{self.formula.text} has no value: {fault}"
+                faults.expect(False, f"{results}: {wanted}, in row {number}")
+                return
             if not faults.expect(
                 abs(found - wanted) <= self.tolerance,
                 f"{results}: {self.column} is {found:.10g} in row {number}{f' of {self.step}' if self.step else ''},"
@@ -197,7 +204,10 @@ def at_a_peak(name, rows):
     peak = max(range(len(rows)), key=lambda row: rows[row][largest])
     if 0 < peak < len(rows) - 1:
         near = [[rows[row][key] for row in (peak - 1, peak, peak + 1)] for key in (column, largest)]
-        return True, np.polynomial.Polynomial.fit(*near, 2).deriv().roots()[0]
+        roots = np.polynomial.Polynomial.fit(*near, 2).deriv().roots() if len(set(near[0])) == 3 else []
+        inside = [root for root in roots if min(near[0]) <= root <= max(near[0])]
+        if inside:
+            return True, inside[0]
     return True, rows[peak][column]
 
 

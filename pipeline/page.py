@@ -18,7 +18,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from PIL import Image
 
 BLUE, VERMILLION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
-PURPLE, SKY, YELLOW = "#CC79A7", "#56B4E9", "#F0E442"
+PURPLE, SKY = "#CC79A7", "#56B4E9"
 RUNS = [BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY]  # a run and those beside it
 MARKERS = ["o", "s", "^", "D", "v", "P"]  # likewise
 INK, GREY, PALE, FACE = "#222222", "#777777", "#C9C9C6", "#F3F3F1"

@@ -62,7 +62,7 @@ def draw_principal_stress(runs, title, view, path):
     lengths = {material: ARM * apart / value for value, materials in groups for material in materials}  # per stress
     for axis, (_, results), meshes, run in zip(sheet.axes, runs, bodies, crosses, strict=True):
         sheet.render(list(meshes.values()), "#DCDCD9", axis, color=FACE)
-        draw_crosses(axis, [(here, lengths[results.material(name)]) for name, here in run.items()])
+        draw_crosses(axis, [(here, lengths[results.material(name)]) for name, here in run.items() if len(here.size)])
     signs = [sign("compression", BLUE, linewidth=1.4), sign("tension", VERMILLION, linewidth=1.4)]
     sheet.key(signs + scale_bars(groups, sheet.points(ARM * apart), view.stress))
     page.save(sheet.figure, path)

@@ -27,6 +27,11 @@ class Results:
         if strange and not beside:
             raise SystemExit(f"{folder}: results of another scene, this one has no subdomain {strange[0]}")
 
+    def has(self, view):
+        """True if a part that the view asks for is there."""
+        names = chosen(self.folder, "subdomain", view.subdomains, self.subdomains)
+        return any(self.subdomains[name].cell_data.get("present", np.ones(1)).any() for name in names)
+
     def bodies(self, view):
         """The meshes of the parts that are there, those that the view asks for, by name."""
         names = chosen(self.folder, "subdomain", view.subdomains, self.subdomains)

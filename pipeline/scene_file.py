@@ -16,3 +16,8 @@ def probes(scene):
     """Columns of the history that are probes, by name; formulas over other columns are left out."""
     history = scene.get("output", {}).get("history", {})
     return {name: probe for name, probe in history.items() if isinstance(probe, str)}
+
+
+def constants(path):
+    """The numbers of a `.geo` by name."""
+    return {name: float(value) for name, value in re.findall(r"(\w+)\s*=\s*\{([-\d.]+),", path.read_text())}

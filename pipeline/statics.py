@@ -32,7 +32,8 @@ def summed(grid, thickness):
 def unseen(grid, law, thickness):
     """A force of which rounding of the springs of a joint is as much as may be left: a crack that is wide open and almost free of stress
     has lost the digits of its tractions."""
-    stiffness = max(law.get("normal_stiffness", 0.0), law.get("tangential_stiffness", 0.0))
+    stated = [law.get(key) for key in ("normal_stiffness", "tangential_stiffness")]
+    stiffness = max((value for value in stated if isinstance(value, (int, float))), default=0.0)
     return thickness * stiffness * np.finfo(float).eps / BALANCE * grid["length"] @ np.hypot(*grid["jump"].T)
 
 

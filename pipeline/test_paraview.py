@@ -129,6 +129,8 @@ def main():
         frames.append(pixels(path))
     expect((frames[-1] != 255).any(), "the picture is empty")
     expect((frames[0] != frames[-1]).any(), "nothing moves between the first time and the last")
+    for stale in pictures.glob(f"{results.name}_animation*.png"):
+        stale.unlink()
     simple.SaveAnimation(str(pictures / f"{results.name}_animation.png"), view, ImageResolution=[600, 400])
     played = sorted(pictures.glob(f"{results.name}_animation*.png"))
     expect(len(played) == len(times), f"{len(played)} frames of {len(times)} times")
