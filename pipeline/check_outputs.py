@@ -61,6 +61,7 @@ LENGTH = 1e-9  # what the law points leave out of an interface
 KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
 ROUND_OFF = 1e-12  # of the quantity compared
 GAP = 1e-9  # of the largest jump or irreversible jump: less is rounding
+SEEN, FOLLOWED = 0.05, 0.25  # a jump that is so much of the displacements is that of the sides but for so much of it
 NOTHING = 1e-9  # of the largest traction of an interface: less is rounding
 
 
@@ -164,9 +165,24 @@ def water_of(scene, name):
     return [load["pressure"] for key, load in loads if "pressure" in load and "." not in key and (key in keys or fnmatch(name, key))]
 
 
-def check_interface(path, grid, law, variables, water, faults):
+def check_moves(path, grid, faults):
+    """The sides move apart as the jump says, where it is no small part of what they move: up to what the grid does not follow."""
+    normal = grid["normal"][:, :2]
+    tangent = np.column_stack([normal[:, 1], -normal[:, 0]])
+    apart = (grid["displacement_b"] - grid["displacement_a"])[:, :2]
+    own = np.column_stack([(apart * normal).sum(axis=1), (apart * tangent).sum(axis=1)])
+
+    def size(field):
+        return np.sqrt(grid["length"] @ (field**2).sum(axis=1))
+
+    jump = size(grid["jump"])
+    if jump > SEEN * max(size(grid["displacement_a"]), size(grid["displacement_b"])):
+        faults.expect(size(own - grid["jump"]) <= FOLLOWED * jump, f"{path}: the sides do not move apart by the jump")
+
+
+def check_interface(path, grid, law, variables, water, moves, faults):
     """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none of
-    which is ever negative; with water its pressure is what the total traction lacks, and apertures are above those of closed faces."""
+    which is ever negative; where it `moves` from the start its sides move apart by the jump; with water its pressure is what the total traction lacks, and apertures are above those of closed faces."""
     flows = [pressure["flow"] for pressure in water if isinstance(pressure, dict)]
     wanted = INTERFACE_POINTS | dict.fromkeys(variables, 1) | (WATER_POINTS if water else {}) | (FLOW_POINTS if flows else {})
     good = check_arrays(path, "point", grid.point_data, wanted, faults)
@@ -181,6 +197,8 @@ def check_interface(path, grid, law, variables, water, faults):
     size = max(np.abs(sides).max(), np.finfo(float).tiny)
     middle = np.abs(grid["displacement"] - 0.5 * (sides[0] + sides[1])).max() <= ROUND_OFF * size
     faults.expect(middle, f"{path}: displacement is not the mean of those of the sides")
+    if moves:
+        check_moves(path, grid, faults)
     absent = grid["status"] == ABSENT
     faults.expect(((grid["condition"] == ABSENT) == absent).all(), f"{path}: status and condition differ in what is there")
     # across a gap at the start the irreversible jump is that at which the faces meet
@@ -360,7 +378,7 @@ def check(results, scene, energy, known, faults):
             check_subdomain(path, grid, name, scene, faults)
         else:
             law, water = entry_of(scene, name)["law"], water_of(scene, name)
-            check_interface(path, grid, law, variables, water, faults)
+            check_interface(path, grid, law, variables, water, not has_stages(scene), faults)
             interfaces.setdefault(int(number), {})[name] = grid
     for path in results.glob("midplane/*.vtu"):
         check_midplane(path, faults)

@@ -499,4 +499,9 @@ fn tractions_at_the_start_stay_within_the_strength() {
     let shear = |t: f64| law.initial_state(Local::new(-5.0, t, 0.0), 0.0).unwrap();
     assert!(law.damaged(shear(0.0), 1.0).is_ok());
     assert_eq!(law.damaged(shear(80.0), 0.9).unwrap_err().key, "initial_damage");
+    // what is lost rubs: wholly lost, μ σ is carried and no more
+    let law = Law::Cohesive(Cohesive { friction_coefficient: 0.5, ..composite() });
+    let pressed = |t: f64| law.initial_state(Local::new(-100.0, t, 0.0), 0.0).unwrap();
+    assert!(law.damaged(pressed(49.9), 1.0).is_ok());
+    assert_eq!(law.damaged(pressed(50.1), 1.0).unwrap_err().key, "initial_damage");
 }

@@ -108,13 +108,26 @@ fn forces_are_held_and_let_go() {
             let last = states.last().unwrap();
             assert!(top(&problem, last, 1).abs() < 1e-30);
             assert!(last.snapshot.stresses[1].cells.iter().flatten().all(|s| s.abs() < 1e-30));
-            // nothing is left of what joined them
-            assert!(last.snapshot.jumps[0].iter().all(|jump| jump.norm() == 0.0));
-            assert!(last.snapshot.states[0].iter().all(|state| state.jump_plastic.norm() == 0.0));
             // a alone stores γ²/6E, whatever was there between
             close(last.stored, GAMMA[0] * GAMMA[0] / (6.0 * E), 1e-9, 0.01, "stored");
         }
     }
+}
+
+/// What joined a part that has slid is forgotten with it: the joint is as at the start while the part is away.
+#[test]
+fn a_part_that_goes_takes_its_slip_along() {
+    let load = r#"{ "name": "load", "load": { "b.top": { "pressure": 30 } } }"#;
+    let slide = r#"{ "name": "slide", "displace": { "b.top": { "x": 0.05 } } }"#;
+    let away = r#"{ "name": "away", "deactivate": { "b": 1.0 } }"#;
+    let problem = stack(COULOMB, "auto", &[WEIGHT, load, slide, away].join(", ")).unwrap();
+    let (states, _) = solve(&problem);
+    let slip = |state: &ModelState| {
+        state.snapshot.states[0].iter().map(|state| state.jump_plastic.norm()).fold(0.0, f64::max)
+    };
+    assert!(slip(&states[2]) > 1e-6, "{}", slip(&states[2]));
+    assert_eq!(slip(&states[3]), 0.0);
+    assert!(states[3].snapshot.jumps[0].iter().all(|jump| jump.norm() == 0.0));
 }
 
 /// Taken away and filled again without stress, twice: the same every time.
