@@ -61,7 +61,7 @@ LENGTH = 1e-9  # what the law points leave out of an interface
 KINK = 0.5  # two cells of the grid that turn by more meet at a corner [rad]
 ROUND_OFF = 1e-12  # of the quantity compared
 GAP = 1e-9  # of the largest jump or irreversible jump: less is rounding
-SEEN, FOLLOWED = 0.05, 0.25  # a jump that is so much of the displacements is that of the sides but for so much of it
+SEEN, FOLLOWED = 0.05, 0.1  # a jump that is so much of the displacements is in the mean that of the sides but for so much of it
 NOTHING = 1e-9  # of the largest traction of an interface: less is rounding
 
 
@@ -166,18 +166,20 @@ def water_of(scene, name):
 
 
 def check_moves(path, grid, faults):
-    """The sides move apart as the jump says, where it is no small part of what they move: up to what the grid does not follow."""
+    """The sides move apart as the jump says, where it is no small part of what they move. Points of the law carry what the coupling makes
+    of the sides, which on an interface of two segments is far from their own distance at a crack's end, but has the same mean."""
     normal = grid["normal"][:, :2]
     tangent = np.column_stack([normal[:, 1], -normal[:, 0]])
     apart = (grid["displacement_b"] - grid["displacement_a"])[:, :2]
     own = np.column_stack([(apart * normal).sum(axis=1), (apart * tangent).sum(axis=1)])
 
-    def size(field):
-        return np.sqrt(grid["length"] @ (field**2).sum(axis=1))
+    def mean(field):
+        return grid["length"] @ np.linalg.norm(field, axis=1)
 
-    jump = size(grid["jump"])
-    if jump > SEEN * max(size(grid["displacement_a"]), size(grid["displacement_b"])):
-        faults.expect(size(own - grid["jump"]) <= FOLLOWED * jump, f"{path}: the sides do not move apart by the jump")
+    jump = mean(grid["jump"])
+    if jump > SEEN * max(mean(grid["displacement_a"]), mean(grid["displacement_b"])):
+        lacking = np.linalg.norm(grid["length"] @ (own - grid["jump"]))
+        faults.expect(lacking <= FOLLOWED * jump, f"{path}: the sides do not move apart by the jump")
 
 
 def check_interface(path, grid, law, variables, water, moves, faults):

@@ -1,27 +1,31 @@
 """Draws the curves of a row."""
 
-import matplotlib
+from itertools import cycle
 
-matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot
 import numpy as np
+
+import page
 
 FLOOR = 1e-18  # what is exactly zero is drawn here
 
 
 def draw(curve, path):
     """One graph, both axes logarithmic unless x is not positive."""
-    figure, axes = pyplot.subplots(figsize=(7.2, 4.2), dpi=130)
-    for label, x, y in curve.series:
-        axes.plot(x, np.maximum(np.abs(np.asarray(y, float)), FLOOR), marker=".", label=label)
+    pyplot.rcParams.update(page.STYLE)
+    figure, (axis,) = page.graphs(1, 3.6)
+    looks = cycle(zip(page.RUNS, page.MARKERS, strict=True))
+    for (label, x, y), (colour, marker) in zip(curve.series, looks):
+        y = np.maximum(np.abs(np.asarray(y, float)), FLOOR)
+        axis.plot(x, y, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=label)
     if curve.line is not None:
-        axes.axhline(curve.line, color="0.4", linestyle="--", linewidth=1, label=f"limit {curve.line:g}")
-    axes.set_yscale("log")
+        look = {"color": page.GREY, "linestyle": page.DASHES, "linewidth": 0.9}
+        axis.axhline(curve.line, label=f"limit {curve.line:g}", **look)
+    axis.set_yscale("log")
     if all(np.min(x) > 0 for _, x, _ in curve.series):
-        axes.set_xscale("log")
-    axes.set(title=curve.title, xlabel=curve.x_label, ylabel=curve.y_label)
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Software": None})
-    pyplot.close(figure)
+        axis.set_xscale("log")
+    axis.set(xlabel=curve.x_label, ylabel=curve.y_label)
+    axis.grid(axis="y")
+    page.heading(axis, curve.title, "")
+    page.key_below(figure, axis.get_legend_handles_labels()[0])
+    page.save(figure, path)
