@@ -199,7 +199,7 @@ robustness-docs:  ## put what damage-test and fuzz have found into docs/ROBUSTNE
 
 mutants: | tools  ## 200 places of pairing, projection, laws and load history made wrong, an hour: results/mutants/report.md
 	cargo build --release --locked -p midplane-mutants
-	python3 pipeline/mutants.py $(TARGET)/release/mutants -o results/mutants $(if $(docs),--docs docs)
+	python3 pipeline/mutants.py $(TARGET)/release/mutants -o results/mutants $(if $(again),--again) $(if $(docs),--docs docs)
 
 kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of runs, some minutes
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test

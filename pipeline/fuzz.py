@@ -73,10 +73,10 @@ class Seeds:
             for segment in path["program"]:
                 segment["points"] = min(segment["points"], 5)
         for number, interface in enumerate(laws.values()):
-            for other, path in enumerate(paths):
-                own = {key: interface[key] for key in interface if key not in ("side_a", "side_b", "sides", "between")}
-                own |= {"side_a": "a.a", "side_b": "b.b"}
-                self.add("path", f"{number}_{other}", f"{json.dumps(own)}\n---\n{json.dumps(path)}")
+            path = paths[number % len(paths)]  # a law takes long, all of them along all paths too long
+            own = {key: interface[key] for key in interface if key not in ("side_a", "side_b", "sides", "between")}
+            own |= {"side_a": "a.a", "side_b": "b.b"}
+            self.add("path", f"{number}", f"{json.dumps(own)}\n---\n{json.dumps(path)}")
 
     def meshes(self, midplane, out):
         for name, coarse in SCENES.items():

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Make the sources wrong in one place after the other, and see whether the tests of that room notice.
 
-    mutants.py [--seed 1] [--count 200] [--areas laws] [-o results/mutants] [--docs docs]
+    mutants.py [--seed 1] [--count 200] [--areas laws] [--again] [-o results/mutants] [--docs docs]
+    mutants.py --report [-o results/mutants] [--docs docs]
 
 A seeded sample of mutants is compiled at once, each behind the number that the environment names, so that one build serves
 for all. Every mutant runs the unit tests of its room and the integration tests that are about it; the first failure, or
 three times the time of the right program, catches it. Survivors are listed with the reasons in tests/mutants/reasons.json.
+After tests were added, `--again` tries those that survived before; after reasons were, `--report` writes the report anew.
 """
 
 import argparse
@@ -51,7 +53,7 @@ AREAS = {
         # how an equilibrium is sought where Newton's method finds none decides no answer: what is found is one, by the checks of others
         [f"src/history/{name}.rs" for name in ("clock", "memory", "progress", "rest", "stretch", "dissipate", "viscous")],
         ["history::"],
-        ["loads", "ramp", "steps", "stages", "opening", "own_strains", "in_situ", "snapback", "water", "structures", "resume", "cycles", "energies", "increments", "faults", "tunnel"],
+        ["loads", "ramp", "steps", "stages", "opening", "own_strains", "in_situ", "snapback", "water", "structures", "resume", "cycles", "energies", "increments", "faults", "tunnel", "units"],
     ),
 }
 SWITCH = '''
@@ -226,15 +228,21 @@ def page(sites, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program", type=Path, help="target/release/mutants")
+    parser.add_argument("program", type=Path, nargs="?", default=ROOT / "target/release/mutants", help="target/release/mutants")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--areas", nargs="+", choices=list(AREAS), default=list(AREAS))
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--docs", type=Path)
+    parser.add_argument("--again", action="store_true", help="those only that have survived in the last report")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/mutants"))
+    parser.add_argument("--report", action="store_true", help="nothing but the report, of what the last run has found")
     options = parser.parse_args()
     out = options.out.resolve()
+    reasons = json.loads(REASONS.read_text()) if REASONS.exists() else []
+    if options.report:
+        write(json.loads((out / "report.json").read_text()), reasons, out, options)
+        return
     out.mkdir(parents=True, exist_ok=True)
     mutants = Mutants(out / "work", options.program.resolve(), options.areas, options.count // len(options.areas), options.seed)
     programs = mutants.compile()
@@ -245,24 +253,37 @@ def main():
             sys.exit(f"{area}: {failed} fails without a mutant")
         limits[area] = SLOWER * seconds + MORE
         print(f"{area}: {seconds:.0f} s without a mutant", flush=True)
-    reasons = json.loads(REASONS.read_text()) if REASONS.exists() else []
 
     def one(site):
         site["caught"], site["seconds"] = run(tests_of(site["area"], programs), site["number"], mutants.work, limits[site["area"]])
-        site["reason"] = next((reason["reason"] for reason in reasons if same(reason, site)), "")
         print(f"{site['number']:4} {site['file']}:{site['line']} {site['kind']}: {site['caught'] or 'SURVIVES'} {site['seconds']:.0f} s", flush=True)
 
     sites = mutants.all()
-    order = list(sites)
+    before = [site for site in json.loads((out / "report.json").read_text()) if site["caught"]] if options.again else []
+    order = []
+    for site in sites:
+        known = next((old for old in before if same(old, site) and old["kind"] == site["kind"]), None)
+        if known:
+            site |= {"caught": known["caught"], "seconds": known["seconds"]}
+        else:
+            order.append(site)
     random.Random(0).shuffle(order)
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(one, order))
+    write(sites, reasons, out, options)
+
+
+def write(sites, reasons, out, options):
+    """The report, and a line for the terminal."""
+    for site in sites:
+        site["reason"] = next((reason["reason"] for reason in reasons if same(reason, site)), "")
     (out / "report.json").write_text(json.dumps(sites, indent=1) + "\n")
     (out / "report.md").write_text(page(sites, options))
     if options.docs:
         shutil.copy(out / "report.md", options.docs / "MUTANTS.md")
     caught = sum(1 for site in sites if site["caught"])
-    print(f"{caught} of {len(sites)} caught, {100 * caught / len(sites):.0f} %")
+    without = sum(1 for site in sites if not site["caught"] and not site["reason"])
+    print(f"{caught} of {len(sites)} caught, {100 * caught / len(sites):.0f} %; {without} of the others without a reason")
 
 
 if __name__ == "__main__":

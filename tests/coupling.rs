@@ -301,6 +301,30 @@ proptest! {
     }
 }
 
+/// Claim: where the outermost edges of both ends are alike the next ones decide from which end the grid is laid, whatever is called A and
+/// whichever way an interface runs.
+#[test]
+fn the_grid_is_laid_from_the_same_end_where_the_outermost_edges_are_alike() {
+    let s_a = [0.0, 0.3, 0.45, 1.2, 1.35, 1.7, 2.0];
+    let s_b = [0.0, 0.3, 0.8, 1.0, 1.5, 1.7, 2.0];
+    let turned = |s: &[f64]| s.iter().rev().map(|s| 2.0 - s).collect::<Vec<_>>();
+    let ends = |s_a: &[f64], s_b: &[f64]| {
+        let c = Line::new(s_a, s_b, 0.0, 0.0).couple(JumpScheme::Projected, Points::Gauss);
+        c.midplane.cells.iter().map(|cell| cell.s[0]).chain([2.0]).collect::<Vec<_>>()
+    };
+    // the second edges: 0.15 and 0.5 at the start, 0.35 and 0.2 at the end, so from the start
+    let exact = [0.0, 0.3, 0.8, 1.2, 1.5, 1.7, 2.0];
+    for (got, exact) in [
+        (ends(&s_a, &s_b), exact.to_vec()),
+        (ends(&s_b, &s_a), exact.to_vec()),
+        (ends(&turned(&s_a), &turned(&s_b)), turned(&exact)),
+        (ends(&turned(&s_b), &turned(&s_a)), turned(&exact)),
+    ] {
+        let off = got.iter().zip(&exact).map(|(got, exact)| (got - exact).abs()).fold(0.0, f64::max);
+        assert!(got.len() == exact.len() && off < 1e-12, "{got:?} {exact:?}");
+    }
+}
+
 /// Claim: what cannot be joined is refused with the reason and its size.
 #[test]
 fn sides_that_do_not_face_each_other_are_refused() {
@@ -430,6 +454,25 @@ fn quadratic_jumps_are_reproduced_by_quadratic_sides() {
             if kind == JumpScheme::Projected {
                 assert_eq!(mixed.points.len(), 2 * (mixed.midplane.grid_nodes - 1));
             }
+        }
+    }
+}
+
+/// Claim: the mid-plane of a curved edge and a straight one is half as curved, and as long as that parabola: for a chord c and a sagitta h,
+/// √(c² + 16 h²)/2 + c²/(8 h) asinh(4 h/c).
+#[test]
+fn between_a_curved_and_a_straight_edge_the_length_is_that_of_a_parabola() {
+    let chord = 2.0;
+    for sagitta in [0.1, -0.1] {
+        let curved = quadratic_side(&[0.0, chord], true);
+        let bulge = |p: &[f64; 3]| [p[0], p[1] + sagitta * p[0] * (chord - p[0]) * 4.0 / chord.powi(2), 0.0];
+        let curved: (Vec<_>, _) = (curved.0.iter().map(bulge).collect(), curved.1);
+        let straight: (Vec<_>, _) = ([0.0, chord].map(|x| [x, 0.3, 0.0]).to_vec(), edges(2, false));
+        let h = 0.5 * sagitta.abs();
+        let exact = 0.5 * chord.hypot(4.0 * h) + chord.powi(2) / (8.0 * h) * (4.0 * h / chord).asinh();
+        for kind in [JumpScheme::Pointwise, JumpScheme::Projected] {
+            let c = couple(&curved, &straight, kind, Points::Gauss);
+            assert!((c.midplane.length / exact - 1.0).abs() < 1e-6, "{} and {exact}", c.midplane.length);
         }
     }
 }

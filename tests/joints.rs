@@ -440,18 +440,21 @@ fn a_curve_joined_twice_at_one_place_is_refused() {
 /// A side that is split over several curves, and several pieces that do not touch: one interface, nothing dropped.
 #[test]
 fn sides_in_several_curves_and_pieces() {
-    let line = |from: f64, to: f64, n: usize, forward: bool| {
-        Curve::new(&even(from, to, n), false, false, forward, &|t| [t, 0.1 * t])
-    };
-    let length = 1.01f64.sqrt();
-    let (a, b) = (
-        line(0.0, 1.0, 9, false),
-        [line(0.0, 0.3, 2, true), line(0.3, 0.6, 5, true), line(0.8, 1.0, 3, true)],
-    );
-    let c = join(&[&a], &[&b[0], &b[1], &b[2]], PROJECTED).unwrap();
-    assert!((c.midplane.length - 0.8 * length).abs() < 1e-14);
-    assert_eq!(c.midplane.pieces.iter().map(|piece| piece.follows).collect::<Vec<_>>(), [false, true, false]);
-    assert!((c.midplane.joined[0] - 0.8).abs() < 1e-14 && (c.midplane.joined[1] - 1.0).abs() < 1e-14);
+    for size in [1e-14, 1.0, 1e14] {
+        let line = |from: f64, to: f64, n: usize, forward: bool| {
+            Curve::new(&even(from, to, n), false, false, forward, &|t| [size * t, 0.1 * size * t])
+        };
+        let length = 1.01f64.sqrt();
+        let (a, b) = (
+            line(0.0, 1.0, 9, false),
+            [line(0.0, 0.3, 2, true), line(0.3, 0.6, 5, true), line(0.8, 1.0, 3, true)],
+        );
+        let c = join(&[&a], &[&b[0], &b[1], &b[2]], PROJECTED).unwrap();
+        assert!((c.midplane.length / size - 0.8 * length).abs() < 1e-14);
+        let follows = c.midplane.pieces.iter().map(|piece| piece.follows).collect::<Vec<_>>();
+        assert_eq!(follows, [false, true, false], "size {size:e}");
+        assert!((c.midplane.joined[0] - 0.8).abs() < 1e-14 && (c.midplane.joined[1] - 1.0).abs() < 1e-14);
+    }
 }
 
 /// 1e5 edges a side are paired in under 0.2 s, straight and closed.

@@ -108,6 +108,23 @@ fn an_opened_crack_closes_freely_and_touches_where_it_was() {
     close(pressed.traction.x, -1.0, 1e-9, "K_N g");
 }
 
+/// Claim: the slip of open faces counts from the last touch: halfway back on the secant it is what it was, and after a touch nothing.
+#[test]
+fn slip_of_open_faces_counts_from_the_last_touch() {
+    let law = Law::Cracking(Cracking { normal_stiffness: 1e6, unloading: Unloading::Closing, ..EXAMPLE_2 });
+    let follow = |jump: [f64; 2], old: &State| {
+        law.respond(Local::new(jump[0], jump[1], 0.0), old, Integration::Tolerance(1e-4)).unwrap().state
+    };
+    let opened = follow([2e-5, 2e-5], &State::default());
+    assert!(opened.own[SLIP] > 1e-6, "{opened:?}");
+    let gap = opened.jump[0] - opened.jump_plastic[0];
+    let halfway = follow([opened.jump[0] - 0.5 * gap, 2e-5], &opened);
+    assert!(halfway.own[BRIDGE] > 0.0 && halfway.traction[0] > 0.0, "{halfway:?}");
+    assert_eq!(halfway.own[SLIP], opened.own[SLIP]);
+    let touching = follow([opened.jump[0] - gap - 1e-6, 2e-5], &halfway);
+    assert_eq!((touching.own[SLIP], touching.traction[0] < 0.0), (0.0, true), "{touching:?}");
+}
+
 /// σᵉ(g; k, o), from its definition.
 fn elastic(kn: f64, state: &State) -> f64 {
     let gap = state.jump.x - state.jump_plastic.x;

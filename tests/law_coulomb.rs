@@ -316,6 +316,45 @@ fn dilatancy_ends_at_its_slip_whatever_the_steps() {
     assert_eq!(Coulomb { dilatancy_end: Some(0.0), ..law }.check().unwrap_err().key, "dilatancy_end");
 }
 
+/// Claim: in a viscous step friction lags: the shear is bounded by the normal traction of the state before, the normal one is the step's own, and
+/// faces that were apart take no shear.
+#[test]
+fn in_a_viscous_step_the_limit_of_friction_is_that_of_the_state_before() {
+    let law = Coulomb { cohesion: 0.5, ..BLOCK };
+    let [kn, kt, _] = law.elastic_stiffness();
+    let lagged =
+        |jump: [f64; 2], old: &State| law.respond_lagged(local(&jump), old, STEPPING, false).unwrap();
+    let pressed = respond(&law, [-4.0 / kn, 0.0], &State::default()).state;
+    // pressed by 4 before, by 1 now: τ = 0.5 + 0.6 · 4
+    let slides = lagged([-1.0 / kn, 1e-3], &pressed);
+    close(slides.traction.x, -1.0, 1e-12, "normal traction");
+    close(slides.traction.y, 0.5 + 0.6 * 4.0, 1e-12, "limit of the state before");
+    close(respond(&law, [-1.0 / kn, 1e-3], &pressed).traction.y, 0.5 + 0.6, 1e-12, "the law's own limit");
+    let sticks = lagged([-1.0 / kn, 2.0 / kt], &pressed);
+    close(sticks.traction.y, 2.0, 1e-12, "stick");
+    let apart = respond(&law, [1e-3, 0.0], &State::default()).state;
+    let meets = lagged([-1.0 / kn, 1e-3], &apart);
+    close(meets.traction.x, -1.0, 1e-12, "faces that meet");
+    assert_eq!(meets.traction.y, 0.0, "faces that were apart take no shear");
+    // with dilatancy, and where cohesion is lost, the law answers as always
+    for law in [Coulomb { dilatancy: 0.1, ..law }, Coulomb { cohesion_lost: LossOfCohesion::AtSlip, ..law }] {
+        let jump = local(&[-1.0 / kn, 1e-3]);
+        let (lagged, own) =
+            (law.respond_lagged(jump, &pressed, STEPPING, false), respond(&law, [-1.0 / kn, 1e-3], &pressed));
+        assert_eq!(lagged.unwrap().traction, own.traction);
+    }
+}
+
+/// Claim: at rest faces that are apart, by however little, carry nothing; those that touch carry what their springs do.
+#[test]
+fn faces_that_are_apart_at_rest_carry_nothing() {
+    let [kn, kt, _] = BLOCK.elastic_stiffness();
+    let rest = |jump: [f64; 2]| BLOCK.at_rest(local(&jump), Local::zeros(), &State::default().own);
+    assert_eq!(rest([1e-12, 3e-4]), Local::zeros());
+    assert_eq!(rest([0.5, 0.0]), Local::zeros());
+    assert_eq!(rest([-1e-4, 3e-4]), Local::new(-1e-4 * kn, 3e-4 * kt, 0.0));
+}
+
 #[test]
 fn cohesion_that_is_lost_at_slip_is_gone_for_good_and_its_energy_told() {
     let law = Coulomb { cohesion: 1.5, cohesion_lost: LossOfCohesion::AtSlip, ..BLOCK };

@@ -4,7 +4,7 @@
 //! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
 
 use crate::law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Local, Response, State, Unloading, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, PointLaw, Response, State, Unloading, WORK};
 
 /// Of the strength or the traction.
 const ROUNDING: f64 = 1e-12;
@@ -133,6 +133,28 @@ fn newton_agrees_with_the_safe_solver() {
             assert!(off <= 1e-7 * law.cohesion, "{off:e}: {law:?} {state:?} {jump:?}");
             assert!((response.state.own[WORK] - work).abs() <= 1e-11 * law.fracture_energy_i);
             state = response.state;
+        }
+    }
+}
+
+/// Claim: a point that is held elastic carries the traction of its springs however far beyond the strength, and answers with their slopes;
+/// where nothing is spent that is K r, from whatever state without damage it starts.
+#[test]
+fn a_point_that_is_held_carries_what_its_springs_do() {
+    let mut random = Random(11);
+    for unloading in [Unloading::Plastic, Unloading::Closing] {
+        for _ in 0..1000 {
+            let law = random.cracking(unloading);
+            let (kn, kt) = (law.normal_stiffness, law.tangential_stiffness);
+            let mut jump =
+                |most: f64| Local::new(random.between(-9.0, most) / kn, random.between(-9.0, 9.0) / kt, 0.0);
+            let (a, b) = (jump(0.5 * law.tensile_strength), jump(9.0));
+            let elastic = |jump: Local| Local::new(kn * jump.x, kt * jump.y, 0.0);
+            let start = State { jump: a, traction: elastic(a), ..State::default() };
+            let (traction, slopes) = Law::Cracking(law).held(b, &start);
+            let off = (traction - elastic(b)).amax() / elastic(b).amax().max(elastic(a).amax());
+            assert!(off < 1e-13, "{law:?} from {a:?} to {b:?}: {traction:?}");
+            assert_eq!(slopes, [kn, kt, kt]);
         }
     }
 }

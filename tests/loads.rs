@@ -112,6 +112,23 @@ fn an_initial_traction_relaxes_to_nothing_where_nothing_resists() {
     close(values[4], -0.5 * 0.5 * (4.0 / 1e5 + 0.25 / 2e4), 1e-11, 1e-5, "energy");
 }
 
+/// An initial traction acts on both sides; what of it and of the first loads is not held by supports is out of balance, over the sum of
+/// the initial forces: all of 2 t₀, and a pressure p on the other end of a body beside it. The springs alone release ½ t₀²/K per area.
+#[test]
+fn what_an_initial_traction_lacks_of_balance_is_told() {
+    for (n, pressure) in [(-2.0, 0.0), (-0.02, 0.0), (-6.0, 3.0), (-2.0, 5.0)] {
+        let law = format!(r#"{SPRINGS}, "initial_traction": [{n}, 0]"#);
+        let load = format!(r#""load": {{ "upper.top": {{ "pressure": "{pressure} + 0*load_factor" }} }}"#);
+        let problem = two_squares(HEAD, &law, &format!(r#"{{ "name": "go", {HELD}, {load} }}"#), "").unwrap();
+        let (_, totals) = solve(&problem);
+        let exact = 1.0 - 0.5 * pressure / n;
+        close(totals.initial.rest, exact, 1e-10, 1.0, &format!("{n}, {pressure}"));
+        if pressure == 0.0 {
+            close(totals.initial.released, 0.5 * 0.5 * n * n / 1e5, 1e-9, 1e-8, "released");
+        }
+    }
+}
+
 /// Zero load gives zeros exactly.
 #[test]
 fn zero_load_gives_zeros() {

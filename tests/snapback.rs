@@ -29,6 +29,22 @@ fn scene(end: f64, control: &str, strategy: &str) -> String {
     )
 }
 
+/// Claim: a part that is pulled away by many lengths of its interface, because it is asked to, goes there: only what nothing asks for goes nowhere.
+#[test]
+fn a_pull_over_many_lengths_is_followed() {
+    let bar =
+        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    for strategy in ["condensed", "blocks", "plain"] {
+        let problem = bind(&scene(5.0, "load", strategy), vec![bar(-0.5), bar(0.0)]).unwrap();
+        let found = try_solve(&problem);
+        assert!(
+            (found.load_factors.last().unwrap() - 1.0).abs() < 1e-12,
+            "{strategy}: {:?}",
+            found.load_factors
+        );
+    }
+}
+
 /// A displacement that is stated as a formula affine in the load factor is followed as the ramp that it is; one that bends is
 /// refused with what to do.
 #[test]

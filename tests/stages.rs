@@ -85,6 +85,21 @@ fn a_lift_comes_where_its_neighbours_are() {
 #[test]
 fn forces_are_held_and_let_go() {
     let load = r#"{ "name": "load", "load": { "b.top": { "pressure": 30 } } }"#;
+    held_and_let_go(load);
+}
+
+/// Water between the two carries a part of what lies on it: the whole is the same.
+#[test]
+fn forces_of_water_are_held_and_let_go() {
+    for pressure in ["7", "\"7 + 100*opening\""] {
+        let water = format!(r#""joint": {{ "pressure": {pressure} }}"#);
+        held_and_let_go(&format!(
+            r#"{{ "name": "load", "load": {{ "b.top": {{ "pressure": 30 }}, {water} }} }}"#
+        ));
+    }
+}
+
+fn held_and_let_go(load: &str) {
     let half = r#"{ "name": "half", "increments": 2, "deactivate": { "b": 0.5 } }"#;
     let wait = r#"{ "name": "wait" }"#;
     let rest = r#"{ "name": "rest", "increments": 2, "deactivate": { "*b": 1.0 } }"#;

@@ -154,3 +154,37 @@ impl Totals {
         warnings
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(totals: &Totals) -> Vec<String> {
+        totals.warnings(1e-3).iter().map(|warning| warning.to_string()).collect()
+    }
+
+    /// Claim: what is out of balance is told with its size and increment from ten times the tolerance of the path on (energies), 1e-6 (forces,
+    /// initial tractions); below nothing is.
+    #[test]
+    fn what_is_out_of_balance_is_told() {
+        let limits = Totals {
+            energy_balance: 9.9e-3,
+            imbalance: 0.9e-6,
+            initial: Relaxed { rest: 0.9e-6, released: 0.0 },
+            ..Totals::default()
+        };
+        assert_eq!(told(&limits), [""; 0]);
+        let energies = told(&Totals { energy_balance: 1.2e-2, balance_at: 17, ..Totals::default() });
+        assert!(energies.len() == 1 && energies[0].contains("increment 17: energies"), "{energies:?}");
+        let forces = told(&Totals { imbalance: 2e-6, imbalance_at: 5, ..Totals::default() });
+        assert!(forces.len() == 1 && forces[0].contains("increment 5: loads and reactions"), "{forces:?}");
+        let initial = Relaxed { rest: 2e-6, released: 3.0 };
+        let tractions = told(&Totals { initial, ..Totals::default() });
+        assert!(tractions.len() == 1 && tractions[0].contains("3.000e0 of energy"), "{tractions:?}");
+        let unheld = told(&Totals { unheld: vec![("block".to_string(), 4)], ..Totals::default() });
+        assert!(
+            unheld.len() == 1 && unheld[0].contains("block: nothing holds it from increment 4"),
+            "{unheld:?}"
+        );
+    }
+}

@@ -123,6 +123,27 @@ mod tests {
         fs::write(folder.join("scene.json"), text).unwrap();
     }
 
+    /// Claim: the stiffness is the derivative of the traction, while damage grows, where the point unloads, and when all is lost.
+    #[test]
+    fn the_stiffness_is_the_derivative() {
+        let law: Law = serde_json::from_str(LAW).unwrap();
+        let damaged = law
+            .respond(Local::new(0.2, 0.0, 0.0), &Default::default(), Integration::BackwardEuler(1))
+            .unwrap()
+            .state;
+        for jump in [Local::new(0.2, 0.15, -0.1), Local::new(0.05, 0.08, 0.02), Local::new(0.4, -0.4, 0.3)] {
+            let traction = |jump: Local| law.respond(jump, &damaged, Integration::BackwardEuler(1)).unwrap();
+            let stiffness = traction(jump).stiffness;
+            for column in 0..3 {
+                let mut step = Local::zeros();
+                step[column] = 1e-6;
+                let slope = (traction(jump + step).traction - traction(jump - step).traction) / 2e-6;
+                let off = (slope - stiffness.column(column)).norm();
+                assert!(off < 1e-8, "{jump:?}, {column}: {slope:?}, {:?}", stiffness.column(column));
+            }
+        }
+    }
+
     /// Claim: a law's own variable reaches arrays, probes, the table of `midplane law` and the energies without a word elsewhere.
     #[test]
     fn a_new_law_is_a_file_and_a_line() {
