@@ -158,3 +158,33 @@ fn a_point_that_is_held_carries_what_its_springs_do() {
         }
     }
 }
+
+/// Claim: a viscous step spends the work of its slip, (|τ| + σ tanφ) |Δr_t^p| under pressure with the friction at its start, and none where it
+/// stays inside; friction and strength lag, what is lost does not.
+#[test]
+fn in_a_viscous_step_the_work_of_slip_is_spent() {
+    let mut random = Random(12);
+    let mut slid = 0;
+    for unloading in [Unloading::Plastic, Unloading::Closing] {
+        for _ in 0..2000 {
+            let law = random.cracking(unloading);
+            let (kn, kt) = (law.normal_stiffness, law.tangential_stiffness);
+            let pressed = Local::new(-random.between(0.5, 9.0) / kn, 0.0, 0.0);
+            let start =
+                State { jump: pressed, traction: Local::new(kn * pressed.x, 0.0, 0.0), ..State::default() };
+            let jump = Local::new(pressed.x, random.between(-30.0, 30.0) / kt, 0.0);
+            let law = Law::Cracking(law);
+            let response = law.respond_lagged(jump, &start, Integration::BackwardEuler(1), true).unwrap();
+            let Law::Cracking(cracking) = &law else { unreachable!() };
+            let (state, traction) = (response.state, response.traction);
+            let slip = (state.jump_plastic.y - start.jump_plastic.y).abs();
+            // nothing has been spent at the start, so the friction is the parameter
+            let exact = (traction.y.abs() + traction.x * cracking.tan_friction) * slip;
+            assert!(traction.x <= 0.0, "{cracking:?} {response:?}");
+            let off = (state.own[WORK] - exact.max(0.0)).abs();
+            assert!(off <= 1e-12 * (traction.amax() * slip), "{cracking:?} {response:?}: {exact:e}");
+            slid += usize::from(slip > 0.0 && exact > 0.0);
+        }
+    }
+    assert!(slid > 1000, "{slid}");
+}
