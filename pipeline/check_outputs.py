@@ -21,12 +21,13 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pyvista
+from midplane import scene_file
 
-import scene_file
 from energies import check_energies
 from joints import entry_of
 from known import Every, Expected, Like, argument, rows_of
 from statics import check_balance
+from told import told
 
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6, "von_mises": 1}
@@ -459,4 +460,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)
