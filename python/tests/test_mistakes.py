@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import content
 
@@ -47,7 +50,7 @@ def test_a_value_that_is_none_of_json(scene: midplane.Scene) -> None:
 
 def test_an_entry_beyond_the_last_step(scene: midplane.Scene) -> None:
     text = said(midplane.InputError, lambda: scene["steps.2.increments"])
-    assert "2" in text and "counted from 0" in text
+    assert 'scene["steps"] + […]' in text and "counted from 0" in text
 
 
 def test_a_value_of_the_wrong_kind(scene: midplane.Scene) -> None:
@@ -127,7 +130,7 @@ def test_an_interface_without_such_a_law(scene: midplane.Scene) -> None:
 
 def test_results_that_were_not_run_from_a_notebook(scene: midplane.Scene) -> None:
     run = scene.run(progress=False)
-    (run.folder / "notebook.json").unlink()
+    subprocess.run([midplane.program(), "run", next(run.folder.glob("notebook/*/*/scene.json")), "-o", run.folder, "--quiet"], check=True)
     assert "resume=True" in said(midplane.ResultsError, lambda: midplane.Run(run.folder).resume())
 
 
@@ -137,5 +140,71 @@ def test_more_than_friction_can_hold(scene: midplane.Scene) -> None:
         scene.run(progress=False)
     assert "nothing holds what slides" in str(found.value)
     run = found.value.run
-    assert run is not None and len(run.history) > 1
+    assert run is not None and 1 < len(run.history) < 6
     assert "midplane.Run(" in str(found.value)
+
+
+def test_what_is_refused_leaves_nothing(scene: midplane.Scene, place: Path) -> None:
+    scene["materials.rock.young"] = -1.0
+    before = sorted(place.rglob("*"))
+    said(midplane.InputError, lambda: scene.run("out", progress=False))
+    said(midplane.InputError, lambda: scene.study({"steps.1.increments": [1, 2]}, {"f": "nothing.at.all"}, out="out", progress=False))
+    assert sorted(place.rglob("*")) == before
+
+
+def test_a_run_without_a_row_does_not_show_those_of_an_earlier_one(scene: midplane.Scene) -> None:
+    scene.run("out", progress=False)
+    scene["steps.0.load.upper.top.pressure"] = "stiff"
+    run = scene.run("out", progress=False, wait=False)
+    with pytest.raises(midplane.InputError):
+        run.wait()
+    text = said(midplane.ResultsError, lambda: run.history)
+    assert "earlier" in text and "pressure" in text
+    assert "without a row" in repr(run)
+    # who opens the folder sees what is there
+    assert len(midplane.Run("out").history) == 8
+
+
+def test_a_second_resume_of_a_run_that_goes_on(scene: midplane.Scene) -> None:
+    scene["steps.1.increments"] = 3000
+    run = scene.run("out", progress=False, wait=False)
+    while not (run.folder / "notebook.json").is_file():
+        time.sleep(0.01)
+    assert "goes on" in said(midplane.MidplaneError, lambda: run.resume(progress=False))
+    assert run.running
+    run.stop()
+
+
+def test_axes_and_measures_of_a_study(scene: midplane.Scene) -> None:
+    assert "list of values" in said(midplane.InputError, lambda: scene.study({"interfaces.joint.coupling": "pointwise"}))
+    assert "none of" in said(midplane.InputError, lambda: scene.study({"steps.1.increments": [1]}, {"f": ("peak", "a", "b")}))
+
+
+def test_names_that_would_leave_the_folder(place: Path) -> None:
+    assert "no name for a scene" in said(midplane.InputError, lambda: midplane.Scene(content(), name="../x"))
+    (place / "scene.json").write_text(json.dumps(content()))
+    (place / "below").mkdir()
+    import os
+
+    os.chdir(place / "below")
+    assert midplane.Scene("..").name == place.name
+
+
+def test_keys_that_are_no_text(scene: midplane.Scene) -> None:
+    assert "a key is a text" in said(midplane.InputError, lambda: scene[0])  # type: ignore[index]
+
+
+def test_zooms(done: midplane.Run) -> None:
+    for zoom in [(0, 0.2, -0.1, 0.1), "all", ((1, 0), (0, 1)), ((0.1, 0.1), (0, 1))]:
+        assert "zoom" in said(midplane.InputError, lambda zoom=zoom: done.plot(zoom=zoom))  # type: ignore[misc]
+    assert "row=3" in said(midplane.InputError, lambda: done.plot(3))  # type: ignore[arg-type]
+
+
+def test_a_law_that_cannot_follow_tells_the_rows_before(scene: midplane.Scene) -> None:
+    still = {"control": "displacement", "start": 0, "end": 0}
+    pulled = {"control": "stress", "start": 0, "end": 1.0}
+    pressed = {"control": "stress", "start": 0, "end": -1.0}
+    path = {"program": [{"n": pressed, "t": still, "points": np.int64(2)}, {"n": pulled | {"start": -1.0}, "t": still, "points": 4}]}
+    with pytest.raises(midplane.EquilibriumError) as found:
+        scene.law("joint", path)
+    assert found.value.table is not None and len(found.value.table) >= 3

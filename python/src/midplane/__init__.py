@@ -3,7 +3,7 @@
     import midplane
 
     scene = midplane.Scene("geo/dam")
-    scene["interfaces.base.law.cohesion"] = 0.5
+    scene["interfaces.base.law.cohesion"] = 2.0
     run = scene.run()
     run.history, run.interface("base"), run.fields[-1], run.crack_map()
 
@@ -14,7 +14,8 @@ from .binary import program
 from .checked import Check, Warned
 from .errors import EquilibriumError, InputError, Interrupted, MachineError, MidplaneError, ResultsError, VersionError
 from .laws import law
-from .run import Fields, MidplaneWarning, Run
+from .run import Fields, Run
+from .running import MidplaneWarning
 from .scene import Scene
 from .version import __version__
 

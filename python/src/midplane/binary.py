@@ -8,10 +8,9 @@ import subprocess
 from functools import lru_cache
 from pathlib import Path
 
-from .errors import MachineError, VersionError
+from .errors import PACKAGE, MachineError, VersionError
 from .version import __version__
 
-PACKAGE = Path(__file__).resolve().parent
 # beside the package as a wheel may bring it, and where cargo puts it for a package that is used from the sources
 BESIDE = [PACKAGE / "bin" / "midplane", PACKAGE.parents[2] / "target" / "release" / "midplane"]
 
@@ -24,7 +23,7 @@ def program() -> Path:
     if named:
         found = Path(named).expanduser()
         if not (found.is_file() and os.access(found, os.X_OK)):
-            raise MachineError(f"MIDPLANE is {named}, which is no program")
+            raise MachineError(f"MIDPLANE is {named}, which is no program (looked in {Path.cwd()})")
     else:
         beside = next((path for path in BESIDE if path.is_file() and os.access(path, os.X_OK)), None)
         in_path = shutil.which("midplane")
@@ -42,10 +41,13 @@ def program() -> Path:
 @lru_cache
 def check_version(found: Path, changed: int) -> None:
     """Raises VersionError unless the program is of the package's version, but for the last number; `changed` makes a new one be asked."""
+    options = {"capture_output": True, "text": True, "encoding": "utf-8", "errors": "replace", "stdin": subprocess.DEVNULL}
     try:
-        ended = subprocess.run([found, "--version"], capture_output=True, text=True, timeout=60, check=False)
+        ended = subprocess.run([found, "--version"], timeout=60, check=False, **options)  # type: ignore[call-overload]
     except OSError as error:
         raise MachineError(f"{found} does not start: {error.strerror}") from None
+    except subprocess.TimeoutExpired:
+        raise MachineError(f"{found} does not answer to --version within a minute") from None
     words = ended.stdout.split()
     if ended.returncode or len(words) != 2 or words[0] != "midplane":
         raise MachineError(f"{found} is not midplane; it answers {(ended.stdout or ended.stderr).strip()[:200]!r} to --version")

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import traceback
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from .run import Run
+
+PACKAGE = Path(__file__).resolve().parent
 
 
 class Told:
-    """An error that a notebook shows by its own words, without the way through this package that led to it."""
+    """An error that a notebook shows with the user's own lines, without the way through this package."""
 
     def _render_traceback_(self) -> list[str]:
-        return [f"{type(self).__name__}: {self}"]
+        frames = traceback.extract_tb(getattr(self, "__traceback__", None))
+        own = [frame for frame in frames if PACKAGE not in Path(frame.filename).parents and "IPython" not in frame.filename]
+        return [*traceback.format_list(own), f"{type(self).__name__}: {self}"]
 
 
 class MidplaneError(Told, Exception):
@@ -20,15 +28,15 @@ class MidplaneError(Told, Exception):
 
 
 class InputError(MidplaneError):
-    """A scene, study or path that is no such thing; nothing was written (exit code 2 of the program)."""
+    """A scene, study or path that is no such thing; nothing was run (exit code 2 of the program)."""
 
 
 class EquilibriumError(MidplaneError):
-    """No equilibrium was found (exit code 3). All rows before are in `run`."""
+    """No equilibrium was found (exit code 3). All rows before are in `run`; of a law they are the `table`."""
 
-    def __init__(self, text: str, run: Run | None = None) -> None:
+    def __init__(self, text: str, run: Run | None = None, table: pd.DataFrame | None = None) -> None:
         super().__init__(text)
-        self.run = run
+        self.run, self.table = run, table
 
 
 class MachineError(MidplaneError):
@@ -44,7 +52,7 @@ class ResultsError(MidplaneError):
 
 
 class Interrupted(Told, KeyboardInterrupt):
-    """Ctrl-C, or an interrupt of the kernel: the program has ended, all rows up to then are in `run`."""
+    """Ctrl-C, or an interrupt of the kernel: the program has ended. All rows up to then are in `run`, which a study has not."""
 
     def __init__(self, text: str, run: Run | None = None) -> None:
         super().__init__(text)

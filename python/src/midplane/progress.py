@@ -15,9 +15,11 @@ class Progress:
 
     def __init__(self, scene: dict[str, Any], name: str) -> None:
         steps = scene.get("steps")
-        counts = [step.get("increments", 1) for step in steps if isinstance(step, dict)] if isinstance(steps, list) else []
+        known = [step for step in steps if isinstance(step, dict)] if isinstance(steps, list) else []
+        self.names = [str(step.get("name", "")) for step in known] or [""]
+        counts = [step.get("increments", 1) for step in known]
         self.counts = [count if isinstance(count, int) else 1 for count in counts] or [1]
-        self.at, self.load = 0, 0.0
+        self.at, self.increment = 0, 0
         self.bar = tqdm(total=float(sum(self.counts)), desc=name, unit="increment", bar_format="{desc} {percentage:3.0f}% |{bar}| {elapsed}{postfix}")
 
     def line(self, text: str) -> None:
@@ -25,14 +27,14 @@ class Progress:
         found = ROW.match(text)
         if found is None:
             return
-        load, count = float(found["load"]), int(found["of"])
-        if load < self.load and int(found["increment"]) == 1 and self.at < len(self.counts) - 1:
-            self.at += 1
-        self.load = load
-        self.counts[self.at] = count
-        done = sum(self.counts[: self.at]) + load * count
+        step, increment, count = found["step"].strip(), int(found["increment"]), int(found["of"])
+        if step != self.names[self.at] or increment <= self.increment:
+            later = (number for number in range(self.at + 1, len(self.names)) if self.names[number] == step)
+            self.at = next(later, self.at)
+        self.increment, self.counts[self.at] = increment, count
+        done = sum(self.counts[: self.at]) + float(found["load"]) * count
         self.bar.total = float(sum(self.counts))
-        self.bar.set_postfix_str(f"{found['step'].strip()} {load:.3f}", refresh=False)
+        self.bar.set_postfix_str(f"{step} {float(found['load']):.3f}", refresh=False)
         self.bar.update(done - self.bar.n)
 
     def close(self, done: bool) -> None:

@@ -14,7 +14,7 @@ def read(path: Path) -> dict[str, Any]:
     """The scene of a file as a dictionary. Raises ValueError for what is no JSON, OSError where there is no file."""
     content = json.loads(without_comments(path.read_text(encoding="utf-8-sig")))
     if not isinstance(content, dict):
-        raise ValueError(f"{path}: a scene is an object {{ }}")
+        raise ValueError("a scene is an object { }")
     return content
 
 
@@ -31,4 +31,4 @@ def probes(scene: dict[str, Any]) -> dict[str, str]:
 
 def constants(path: Path) -> dict[str, float]:
     """The numbers of a `.geo` by name."""
-    return {name: float(value) for name, value in re.findall(r"(\w+)\s*=\s*\{([-\d.]+),", path.read_text())}
+    return {name: float(value) for name, value in re.findall(r"(\w+)\s*=\s*\{([-\d.]+),", path.read_text(encoding="utf-8"))}

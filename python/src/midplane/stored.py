@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import csv
 import json
+import operator
 import re
-from functools import cached_property
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from .vtu import LINE, Array, Vtu
 if TYPE_CHECKING:
     import pyvista
 
+NEAR = 3  # segments before and behind the one in which a place should lie
 FIELD = re.compile(r"(.+)_(\d{4,})\.vtu")
 
 
@@ -33,12 +35,11 @@ class Stored:
 
     def history(self) -> pd.DataFrame:
         """history.csv, a row per increment from the unloaded state on; "step" is text, everything else numbers."""
-        path = self.file("history.csv")
-        return pd.read_csv(path, dtype={"step": str}, keep_default_na=False, na_values={})
+        return pd.read_csv(self.file("history.csv"), dtype={"step": str}, keep_default_na=False, na_values={}, encoding="utf-8")
 
     def summary(self) -> dict[str, Any]:
         """summary.json; README "Results" says what it has."""
-        content: dict[str, Any] = json.loads(self.file("summary.json").read_text())
+        content: dict[str, Any] = json.loads(self.file("summary.json").read_text(encoding="utf-8"))
         return content
 
     def file(self, name: str) -> Path:
@@ -55,11 +56,17 @@ class Stored:
         return {(found[1], int(found[2])): path for found, path in matched if found}
 
     def rows(self) -> list[int]:
-        """The rows of the history of which there are fields."""
-        return sorted({row for _, row in self.files()})
+        """The rows of the history of which all fields are there; those of the newest may still come."""
+        counts = Counter(row for _, row in self.files())
+        most = max(counts.values(), default=0)
+        return sorted(row for row, count in counts.items() if count == most)
 
     def row(self, row: int) -> int:
         """A stored row; negative numbers count from the last one. Raises ResultsError."""
+        try:
+            row = operator.index(row)
+        except TypeError:
+            raise ResultsError(f'{self.folder}: a row is a number, such as -1 for the last, or "all" of an interface, not {row!r}') from None
         rows = self.rows()
         if row in rows:
             return row
@@ -72,14 +79,17 @@ class Stored:
         """The fields of a subdomain or interface."""
         path = self.folder / "fields" / f"{name}_{row:04}.vtu"
         if not path.is_file():
-            raise ResultsError(unknown(self.folder, "subdomain or interface", name, dict.fromkeys(name for name, _ in self.files())))
+            names = dict.fromkeys(name for name, _ in self.files())
+            if name in names:
+                raise ResultsError(f"{path}: there is no such file, or not yet")
+            raise ResultsError(unknown(self.folder, "subdomain or interface", name, names))
         return Vtu(path)
 
     def grid(self, name: str, row: int) -> pyvista.UnstructuredGrid:
         """The same as PyVista has it."""
         return self.field(name, row).grid()
 
-    @cached_property
+    @property
     def sizes(self) -> dict[str, Any]:
         """Subdomains and interfaces with their counts. Where a run has no summary yet, those of which there are files."""
         if (self.folder / "summary.json").is_file():
@@ -127,7 +137,7 @@ class Stored:
         columns = place | {column: np.concatenate([part[column] for part in parts]) for column in names}
         index = pd.MultiIndex.from_arrays([np.repeat(rows, count), np.tile(np.arange(count), len(rows))], names=["row", "point"])
         frame = pd.DataFrame(columns, index=index)
-        sides = self.sizes["interfaces"][name].get("subdomains", [None, None])
+        sides = self.sizes["interfaces"].get(name, {}).get("subdomains", [None, None])
         frame.attrs = {"interface": name, "side_a": sides[0], "side_b": sides[1], "start": midplane.start, "end": midplane.end, "length": midplane.length}
         return frame
 
@@ -163,12 +173,28 @@ class Midplane:
         return float(np.linalg.norm(np.diff(self.points[self.segments], axis=1), axis=2).sum())
 
     def distance(self, places: Array) -> Array:
-        """The length from @0 to places that follow each other along the line."""
+        """The length from @0 to places that follow each other on the line, or near it."""
+        ends = self.points[self.segments]
+        along = ends[:, 1] - ends[:, 0]
+        lengths = np.linalg.norm(along, axis=1)
+        begin = np.append(0.0, np.cumsum(lengths))
+        # about where: by the way from place to place; then the nearest of the segments there
         steps = np.diff(places[:, :2], axis=0, prepend=np.array([self.start]))
-        return np.cumsum(np.linalg.norm(steps, axis=1))
+        about = np.cumsum(np.linalg.norm(steps, axis=1))
+        about *= begin[-1] / max(begin[-1], float(about[-1])) if len(about) else 1.0
+        found, nearest = np.zeros(len(places)), np.full(len(places), np.inf)
+        at = np.searchsorted(begin, about) - 1
+        for off in range(-NEAR, NEAR + 1):
+            k = np.clip(at + off, 0, len(lengths) - 1)
+            share = ((places[:, :2] - ends[k, 0]) * along[k]).sum(axis=1) / lengths[k] ** 2
+            share = np.clip(share, 0.0, 1.0)
+            away = np.linalg.norm(places[:, :2] - ends[k, 0] - share[:, None] * along[k], axis=1)
+            closer = away < nearest
+            found, nearest = np.where(closer, begin[k] + share * lengths[k], found), np.where(closer, away, nearest)
+        return found
 
 
 def text_rows(path: Path) -> list[dict[str, str]]:
     """The rows of a CSV file as they are written."""
-    with open(path, newline="") as file:
+    with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))

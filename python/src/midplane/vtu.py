@@ -86,11 +86,14 @@ class Vtu:
         return next(iter(self.at.values()))
 
     def array(self, header: dict[str, str]) -> Array:
-        """The values that a header describes."""
-        data = self.data(self.start + int(header["offset"]))
-        values = np.frombuffer(data, np.dtype(TYPES[header["type"]]).newbyteorder("<"))
+        """The values that a header describes. Raises ResultsError where the file is damaged."""
         count = int(header.get("NumberOfComponents", 1))
-        return values.reshape(-1, count) if count > 1 else values
+        try:
+            data = self.data(self.start + int(header["offset"]))
+            values = np.frombuffer(data, np.dtype(TYPES[header["type"]]).newbyteorder("<"))
+            return values.reshape(-1, count) if count > 1 else values
+        except (ValueError, KeyError, MemoryError, OverflowError, zlib.error) as error:
+            raise ResultsError(f"{self.path}: damaged ({error})") from None
 
     def data(self, at: int) -> bytes:
         """The bytes of the array whose header is at a place: blocks, size of a block, of the last, of each compressed, or plain."""
@@ -102,10 +105,7 @@ class Vtu:
         lengths = np.frombuffer(self.content, self.size, blocks, at + 3 * word).tolist()
         begin, out = at + (3 + blocks) * word, []
         for length in lengths:
-            try:
-                out.append(zlib.decompress(self.content[begin : begin + length]))
-            except zlib.error as error:
-                raise ResultsError(f"{self.path}: damaged ({error})") from None
+            out.append(zlib.decompress(self.content[begin : begin + length]))
             begin += length
         return b"".join(out)
 

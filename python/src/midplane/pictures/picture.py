@@ -25,7 +25,8 @@ class Picture:
 
     def save(self, path: str | Path) -> Path:
         """Writes the picture, in the form that the name's ending says: .png, .pdf, .svg."""
-        path = Path(path)
+        path = Path(path).expanduser()
+        path = path if path.suffix else path.with_suffix(".png")
         path.parent.mkdir(parents=True, exist_ok=True)
         with mpl.rc_context(page.STYLE):
             self.figure.savefig(path)

@@ -6,7 +6,8 @@ import math
 import os
 import subprocess
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
@@ -44,16 +45,36 @@ raise SystemExit(not window.SupportsOpenGL())
 """
 
 
+WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"  # by which VTK is told how to render
+
+
 @cache
-def can_render() -> bool:
-    """Set up the first way of off-screen rendering that works; tried in a child, as VTK crashes without."""
-    for window in ("vtkOSOpenGLRenderWindow", "vtkEGLRenderWindow"):
-        environment = {**os.environ, "VTK_DEFAULT_OPENGL_WINDOW": window}
-        child = subprocess.run([sys.executable, "-c", PROBE], env=environment, capture_output=True)
+def window() -> str | None:
+    """The first way of off-screen rendering that works; tried in a child, as VTK crashes without."""
+    for way in ("vtkOSOpenGLRenderWindow", "vtkEGLRenderWindow"):
+        child = subprocess.run([sys.executable, "-c", PROBE], env={**os.environ, WINDOW: way}, capture_output=True, check=False)
         if child.returncode == 0:
-            os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = window
-            return True
-    return False
+            return way
+    return None
+
+
+def can_render() -> bool:
+    """Whether meshes can be rendered."""
+    return window() is not None
+
+
+@contextmanager
+def off_screen() -> Iterator[None]:
+    """VTK renders off-screen, and afterwards as before."""
+    before = os.environ.get(WINDOW)
+    os.environ[WINDOW] = window() or ""
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[WINDOW]
+        else:
+            os.environ[WINDOW] = before
 
 
 class Page:
@@ -115,7 +136,8 @@ class Page:
         (x0, x1), (y0, y1) = axis.get_xlim(), axis.get_ylim()
         pixels = np.array([x1 - x0, y1 - y0]) / self.inch * self.figure.dpi * OVERSAMPLE
         whole = together(meshes)
-        plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
+        with off_screen():
+            plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
         plotter.add_mesh(whole, lighting=False, show_scalar_bar=False, **look)
         if edge:
             cell = math.sqrt(whole.area / whole.n_cells) / self.inch  # size of one on paper

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -20,8 +20,16 @@ from .page import ABSENT
 class Results:
     """One stored row of a results folder, the last if none is named; of a run beside others it may have parts that the scene has not."""
 
-    def __init__(self, folder: Path, scene: Mapping[str, Any] | None, row: int | None = None, beside: bool = False) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        scene: Mapping[str, Any] | None,
+        row: int | None = None,
+        beside: bool = False,
+        sides: Callable[[str], Sequence[str | None]] | None = None,
+    ) -> None:
         self.folder, self.scene, self.stored = folder, scene, Stored(folder)
+        self.told = sides
         self.pictures = folder / "pictures"
         files = self.stored.files()
         self.rows = sorted({number for _, number in files})
@@ -65,8 +73,10 @@ class Results:
         """summary.json."""
         return self.stored.summary()
 
-    def sides(self, name: str) -> list[str]:
-        """The subdomains of side A and of side B."""
+    def sides(self, name: str) -> Sequence[str | None]:
+        """The subdomains of side A and of side B: the summary's, or as they were told where a run has none yet."""
+        if self.told is not None and not (self.folder / "summary.json").is_file():
+            return self.told(name)
         sides: list[str] = self.summary["sizes"]["interfaces"][name]["subdomains"]
         return sides
 
