@@ -126,7 +126,7 @@ class Run:
 
     def kept(self) -> str:
         """What there is of a run that did not come to its end."""
-        return f"What converged is in midplane.Run({str(self.folder)!r}); `resume()` goes on" if self.begun else "It has no row yet"
+        return f"What converged is in midplane.Run({shown(self.folder)!r}); `resume()` goes on" if self.begun else "It has no row yet"
 
     def stop(self) -> None:
         """Ends a run that goes on; what it has found is on disk."""
@@ -234,19 +234,27 @@ class Run:
 
     def __repr__(self) -> str:
         if self.running:
-            return f"Run {self.folder}: goes on"
+            return f"Run {shown(self.folder)}: goes on"
         if not self.begun or not (self.folder / "summary.json").is_file():
-            return f"Run {self.folder}: " + (f"ended without a row: {self.error}" if self.error is not None else "no summary")
+            return f"Run {shown(self.folder)}: " + (f"ended without a row: {self.error}" if self.error is not None else "no summary")
         summary = self.summary
         counts, solution = summary["sizes"], summary["solution"]
         lines = [
-            f"Run {self.folder}: {summary['title']}",
+            f"Run {shown(self.folder)}: {summary['title']}",
             f"  {counts['dofs']} dofs, {len(counts['subdomains'])} subdomains, {len(counts['interfaces'])} interfaces",
             f"  {solution['increments']} increments, {solution['iterations']} iterations, {summary['time']['total']:.3g} s; "
             f"energies balance to {solution['energy_balance']:.1e}",
         ]
         lines += [f"  stopped: {summary['stopped']}"] if summary["stopped"] else []
         return "\n".join([*lines, *(f"  {warned}" for warned in self.warnings)])
+
+
+def shown(folder: Path) -> str:
+    """A folder as it is seen from the working directory, where it lies below."""
+    try:
+        return str(folder.relative_to(Path.cwd()))
+    except ValueError:
+        return str(folder)
 
 
 def sides_in(scene: dict[str, Any], name: str) -> tuple[str | None, str | None]:
