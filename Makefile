@@ -24,15 +24,17 @@ variants = $(patsubst geo/$1/%.json,$1_%,$(filter-out %/scene.json %study.json %
 all: $(SCENES) law  ## build, solve every scene of the gallery, check the results, draw the pictures
 	@echo "up to date: results/<scene>/, its pictures in results/<scene>/pictures/"
 
-PICTURES := $(addprefix pipeline/,page.py names.py labels.py scene_file.py)
-DRAWING := $(PICTURES) $(addprefix pipeline/,draw.py traction.py history.py plane.py results.py displacement.py principal.py interfaces.py \
-    coupling.py measured.py joints.py inclusion.py solutions.py) $(wildcard pipeline/exact*.py)
+# the package that reads results and draws them; the scripts in pipeline/ stand on it
+PACKAGE := $(wildcard python/src/midplane/*.py python/src/midplane/pictures/*.py)
+DRAWING := $(PACKAGE) $(addprefix pipeline/,draw.py deviation.py history.py view_options.py coupling.py measured.py joints.py inclusion.py solutions.py \
+    told.py) $(wildcard pipeline/exact*.py)
 # beside $1: scene, $2: results to show beside those of the scene
 beside = $(foreach run,$2,--compare $(run:$1_%=%)=results/$(run))
 
 # limits $1, $2: options for the check of a scene, folder and name of the file
 limits = $(addprefix @,$(firstword $(wildcard geo/$1/$2.check.args geo/$1/check.args)))
-CHECKING := $(addprefix pipeline/,check_outputs.py known.py energies.py statics.py joints.py scene_file.py)
+CHECKING := $(addprefix pipeline/,check_outputs.py known.py energies.py statics.py joints.py) \
+    $(addprefix python/src/midplane/,scene_file.py stored.py vtu.py)
 
 # $1: name of the results, $2: folder, $3: scene file, $4: results to show beside these
 define results
@@ -99,7 +101,7 @@ generated: $(VENV) # what programs have written into the gallery is what they wr
 	@for top in load height free; do \
 	    python3 pipeline/wall.py --top $$top | cmp - geo/masonry_wall/$$(echo $$top | sed s/load/scene/).json || exit; \
 	done
-	@mkdir -p $(TARGET)/aggregate && python3 pipeline/aggregate.py $(TARGET)/aggregate > /dev/null
+	@mkdir -p $(TARGET)/aggregate && $(PYTHON) pipeline/aggregate.py $(TARGET)/aggregate > /dev/null
 	@for file in scene slip; do \
 	    ! $(PYTHON) pipeline/exact_lining.py geo/lining/$$file.json | \
 	        grep -vxFf geo/lining/$$(echo $$file.check.args | sed s/scene.//) || exit; \
@@ -115,7 +117,7 @@ law: $(addprefix results/law/,shear.png closing.png)  ## drive one point of the 
 results/law/shear.png: SAYS := --title="A crack shears and loses its strength" --subtitle="one point of Example 2 under −5 MPa"
 results/law/closing.png: SAYS := --title="A crack opens, closes, is sheared under pressure, and opens again" \
     --subtitle="one point of Example 2 along geo/closing/path.json; the numbers follow the path"
-results/law/%.png: geo/%/path.json geo/shear/scene.json pipeline/law_path.py $(PICTURES) $(MIDPLANE) $(VENV)
+results/law/%.png: geo/%/path.json geo/shear/scene.json pipeline/law_path.py $(PACKAGE) $(MIDPLANE) $(VENV)
 	@mkdir -p results/law
 	$(MIDPLANE) law geo/shear joint $< --tolerance 1e-6 > results/law/$*.csv
 	$(PYTHON) pipeline/law_path.py results/law/$*.csv --scene geo/shear/scene.json --interface joint $(SAYS) -o $@
@@ -136,7 +138,25 @@ $(VENV): pipeline/requirements.txt | tools
 	python3 -m venv --clear .venv
 	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r $<
 	.venv/bin/pip check --disable-pip-version-check
+	echo "$(CURDIR)/python/src" > "$$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/midplane.pth"
 	@touch $@
+
+# the package as a stranger installs it, apart from the sources, with what its tests and notebooks need
+NOTEBOOKS := .venv-notebooks/ready
+$(NOTEBOOKS): python/requirements.txt | tools
+	python3 -m venv --clear .venv-notebooks
+	.venv-notebooks/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r $<
+	.venv-notebooks/bin/pip check --disable-pip-version-check
+	@touch $@
+
+notebooks: $(MIDPLANE) $(NOTEBOOKS)  ## the Python package: types, format, tests; its notebooks, run from an installed wheel: results/notebooks/
+	cd python && ../.venv-notebooks/bin/ruff check . && ../.venv-notebooks/bin/ruff format --check . && ../.venv-notebooks/bin/mypy
+	rm -rf results/notebooks && mkdir -p results/notebooks
+	.venv-notebooks/bin/pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w results/notebooks ./python
+	.venv-notebooks/bin/pip install --quiet --disable-pip-version-check --no-deps --force-reinstall results/notebooks/*.whl
+	cd python && MIDPLANE="$(abspath $(MIDPLANE))" ../.venv-notebooks/bin/python -m pytest -q
+	MIDPLANE="$(abspath $(MIDPLANE))" MIDPLANE_GEO="$(CURDIR)/geo" .venv-notebooks/bin/python python/notebooks/execute.py \
+	    results/notebooks $(if $(docs),--keep)
 
 tools:            ## install what is missing on the system, or say what it is
 	@pipeline/tools.sh
@@ -171,11 +191,11 @@ extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/ex
 hostile-test: | tools  ## geometries from strangers: all are contained and say why
 	cargo test --release --locked --test tests hostile:: -- --nocapture
 
-damage-test: $(MIDPLANE)  ## ten thousand damaged scenes, geometries, meshes, studies and paths, a quarter of an hour
-	python3 pipeline/damage.py $(MIDPLANE) -o results/damage
+damage-test: $(MIDPLANE) $(VENV)  ## ten thousand damaged scenes, geometries, meshes, studies and paths, a quarter of an hour
+	$(PYTHON) pipeline/damage.py $(MIDPLANE) -o results/damage
 
-damage-test-quick: $(MIDPLANE)  ## a few hundred of them
-	python3 pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
+damage-test-quick: $(MIDPLANE) $(VENV)  ## a few hundred of them
+	$(PYTHON) pipeline/damage.py $(MIDPLANE) --count 400 -o results/damage-quick
 
 # a screen that is not there yet when it is asked for is asked for once more
 test-paraview: $(addprefix results/,masonry/.solved tension/.solved)  ## open and play results in ParaView, save pictures; installs it
@@ -184,15 +204,15 @@ test-paraview: $(addprefix results/,masonry/.solved tension/.solved)  ## open an
 	for scene in tension masonry; do play $$scene || play $$scene || exit; done
 
 # the targets share all that they depend on with the program; only the crates of this workspace have the fuzzer's counters
-fuzz-build: $(MIDPLANE)
+fuzz-build: $(MIDPLANE) $(VENV)
 	pipeline/tools.sh compiler
 	RUSTC_WORKSPACE_WRAPPER=$(CURDIR)/tests/fuzz/instrument.sh cargo build --release --locked -p midplane-fuzz --bins
 
 fuzz: fuzz-build  ## ten million inputs made by libFuzzer to meshes, scenes, studies, paths, formulas and pairing, some minutes
-	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) $(if $(minutes),--seconds $$(($(minutes) * 60)) --runs 1000000000) -o results/fuzz
+	$(PYTHON) pipeline/fuzz.py $(dir $(MIDPLANE)) $(if $(minutes),--seconds $$(($(minutes) * 60)) --runs 1000000000) -o results/fuzz
 
 fuzz-quick: fuzz-build  ## the same with a hundred thousand or so each, never quite the same ones
-	python3 pipeline/fuzz.py $(dir $(MIDPLANE)) --runs 100000 -o results/fuzz-quick
+	$(PYTHON) pipeline/fuzz.py $(dir $(MIDPLANE)) --runs 100000 -o results/fuzz-quick
 
 robustness-docs:  ## put what damage-test and fuzz have found into docs/ROBUSTNESS.md
 	python3 pipeline/robustness.py results/damage/report.json results/fuzz/report.json docs/ROBUSTNESS.md
@@ -312,7 +332,7 @@ docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	done
 
 clean:            ## remove everything made here: results, build, Python environment
-	rm -rf results .venv
+	rm -rf results .venv .venv-notebooks
 	cargo clean
 
 help:             ## this list
@@ -325,4 +345,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all notebooks wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

@@ -12,8 +12,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "pipeline"))
 
 import matplotlib.pyplot as plt  # noqa: E402
 
-import page  # noqa: E402
-from page import BLUE, GREY, ORANGE, VERMILLION, sign  # noqa: E402
+from midplane.pictures import page  # noqa: E402
+from midplane.pictures.page import BLUE, GREY, ORANGE, VERMILLION, sign  # noqa: E402
 
 COLOURS = {"elastic": BLUE, "friction": ORANGE, "cracking": VERMILLION}
 OURS = {"marker": "o", "markersize": 4.5, "linewidth": 1.4}

@@ -18,7 +18,7 @@ import math
 import random
 from pathlib import Path
 
-import scene_file
+from midplane import scene_file
 
 WALL = 0.25  # shift of the walls of a row, of a cell's width: rows lie in bond
 PEAK = 0.12  # of a cell's roof above its mean, of a cell's height

@@ -10,7 +10,6 @@ rows shown. A GIF is always to be had; an MP4 needs ffmpeg.
 """
 
 import argparse
-import csv
 import shutil
 import subprocess
 from pathlib import Path
@@ -18,18 +17,16 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
+from midplane import scene_file
+from midplane.pictures import displacement, interfaces, page, plane
+from midplane.pictures.page import BLUE, FACE, PALE, STATUS, sign
+from midplane.pictures.plane import Page
+from midplane.pictures.results import Results
 from PIL import Image
 
-import displacement
 import history
-import interfaces
-import page
-import plane
-import results as of_results
-import scene_file
-from page import BLUE, FACE, PALE, STATUS, sign
-from plane import Page
-from results import Results
+import view_options
+from told import told
 
 MOST = 100  # frames, if --every does not say otherwise
 SECONDS = 8.0  # about as long, without the last frame, which stays
@@ -43,7 +40,7 @@ class Film:
     """A page of which the pictures change from row to row."""
 
     def __init__(self, arguments, scene):
-        self.view = of_results.view_of(arguments)
+        self.view = view_options.view_of(arguments)
         self.every_row = history_rows(arguments.results)
         stored = Results(arguments.results, scene).rows
         if len(stored) < 2:
@@ -158,8 +155,7 @@ def moved_line(axis, points, factor):
 
 def history_rows(folder):
     """The rows of history.csv as text."""
-    with open(folder / "history.csv", newline="") as file:
-        return list(csv.DictReader(file))
+    return text_rows(folder / "history.csv")
 
 
 def history_columns(arguments):
@@ -210,7 +206,7 @@ def main():
     parser.add_argument("--y", help="its ordinate", **axis)
     parser.add_argument("--seconds", type=float, default=SECONDS, help=f"how long it runs, about, default: {SECONDS:g}")
     parser.add_argument("-o", "--output", type=Path, help="the .gif or .mp4 to write")
-    of_results.add_arguments(parser)
+    view_options.add_arguments(parser)
     arguments = parser.parse_args()
     path = arguments.output or arguments.results / "pictures" / f"{arguments.field}.gif"
     if path.suffix not in (".gif", ".mp4"):
@@ -232,4 +228,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

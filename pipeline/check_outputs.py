@@ -1,6 +1,6 @@
 """Check the results of one scene from outside, with programs that know nothing of midplane.
 
-Every VTU is read by meshio and by VTK (through pyvista), and both must find the same points, cells and
+Every VTU is read by meshio, by VTK (through pyvista) and by the package, and all must find the same points, cells and
 arrays, of the shapes and names the README promises, and finite. Faces of cracks and of Coulomb joints that are
 apart must not press on each other. The .pvd must name exactly the files there are, history.csv must hold a row
 per increment, and its energies must be right. Then statics at the last increment: the loads and reactions of
@@ -21,12 +21,14 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pyvista
+from midplane import scene_file
+from midplane.vtu import Vtu
 
-import scene_file
 from energies import check_energies
 from joints import entry_of
 from known import Every, Expected, Like, argument, rows_of
 from statics import check_balance
+from told import told
 
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6, "von_mises": 1}
@@ -74,37 +76,39 @@ class Faults(list):
         return good
 
 
-def read_twice(path, faults):
-    """The file as pyvista reads it, after meshio has agreed; None if it cannot be read."""
+def read_thrice(path, faults):
+    """The file as pyvista reads it, after meshio and the reader of the package have agreed; None if it cannot be read."""
     try:
         other = meshio.read(path)
         grid = pyvista.read(path)
-    except Exception as error:  # two foreign readers, each with its own exceptions
+        ours = Vtu(path)
+    except Exception as error:  # foreign readers, each with its own exceptions
         faults.append(f"{path}: cannot be read: {error}")
         return None
-    faults.expect(np.array_equal(other.points, grid.points), f"{path}: meshio and VTK read different points")
+    meshio_cells = {name: np.concatenate(blocks) for name, blocks in other.cell_data.items()}
     corners = np.concatenate([block.data.ravel() for block in other.cells])
-    sizes = [block.data.shape[1] for block in other.cells for _ in block.data]
-    same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(
-        sizes, np.diff(grid.cell_offsets)
-    )
-    faults.expect(same, f"{path}: meshio and VTK read different cells")
-    cell_data = {name: np.concatenate(blocks) for name, blocks in other.cell_data.items()}
-    for place, ours, theirs in [
-        ("point", other.point_data, grid.point_data),
-        ("cell", cell_data, grid.cell_data),
-    ]:
-        if faults.expect(
-            set(ours) == set(theirs.keys()),
-            f"{path}: {place} arrays differ, meshio {sorted(ours)}, VTK {sorted(theirs.keys())}",
-        ):
-            for name, values in ours.items():
-                same = np.array_equal(values.ravel(), theirs[name].ravel(), equal_nan=True)
-                faults.expect(same, f"{path}: meshio and VTK read different {place} {name}")
+    sizes = np.array([block.data.shape[1] for block in other.cells for _ in block.data])
+    cells = (ours.cells["connectivity"], np.diff(ours.cells["offsets"], prepend=0))
+    agree(path, "meshio", (other.points, corners, sizes, other.point_data, meshio_cells), grid, faults)
+    agree(path, "midplane", (ours.points, *cells, dict(ours.point_data), dict(ours.cell_data)), grid, faults)
     faults.expect(np.isfinite(grid.points).all(), f"{path}: a point is not finite")
     missing = [name for name in FIELD_DATA if grid.field_data.get(name) is None] if "fields" in path.parts else []
     faults.expect(not missing, f"{path}: no field data {missing}")
     return grid
+
+
+def agree(path, reader, read, grid, faults):
+    """What another reader has found, points, corners of cells, their numbers, arrays, is what VTK has."""
+    points, corners, sizes, *arrays = read
+    faults.expect(np.array_equal(points, grid.points), f"{path}: {reader} and VTK read different points")
+    same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(sizes, np.diff(grid.cell_offsets))
+    faults.expect(same, f"{path}: {reader} and VTK read different cells")
+    for place, ours, theirs in zip(("point", "cell"), arrays, (grid.point_data, grid.cell_data), strict=True):
+        names = sorted(ours), sorted(theirs.keys())
+        if faults.expect(names[0] == names[1], f"{path}: {place} arrays differ, {reader} {names[0]}, VTK {names[1]}"):
+            for name, values in ours.items():
+                same = np.array_equal(values.ravel(), theirs[name].ravel(), equal_nan=True)
+                faults.expect(same, f"{path}: {reader} and VTK read different {place} {name}")
 
 
 def check_arrays(path, place, data, wanted, faults):
@@ -252,7 +256,7 @@ def has_stages(scene):
 
 def check_midplane(path, faults):
     """Segments (kind 0) with their parent edges, and cells of the grid (kind 1)."""
-    grid = read_twice(path, faults)
+    grid = read_thrice(path, faults)
     if grid is None:
         return
     good = check_arrays(path, "point", grid.point_data, MIDPLANE_POINTS, faults)
@@ -373,7 +377,7 @@ def check(results, scene, energy, known, faults):
     for path in files:
         name, _, number = path.stem.rpartition("_")
         last = max(last, int(number))
-        grid = read_twice(path, faults)
+        grid = read_thrice(path, faults)
         if grid is None:
             continue
         if name in scene["subdomains"]:
@@ -459,4 +463,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

@@ -11,15 +11,15 @@ import argparse
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+from midplane import scene_file
+from midplane.pictures import page, plane
+from midplane.pictures.displacement import draw_displacement
+from midplane.pictures.interfaces import draw_interfaces
+from midplane.pictures.principal import draw_principal_stress
+from midplane.pictures.results import Results
 
-import page
-import plane
-import results as of_results
-import scene_file
-from displacement import draw_displacement
-from interfaces import draw_interfaces
-from principal import draw_principal_stress
-from results import Results
+import view_options
+from told import told
 
 FIELDS = {"displacement": draw_displacement, "stress": draw_principal_stress, "interfaces": draw_interfaces}
 
@@ -37,7 +37,7 @@ def main():
     parser.add_argument("--field", choices=FIELDS, default="displacement", help="what is drawn, default: displacement")
     parser.add_argument("--row", type=int, action="append", help="row of history.csv, for both or twice, one for each")
     parser.add_argument("-o", "--output", type=Path, help="picture to write")
-    of_results.add_arguments(parser)
+    view_options.add_arguments(parser)
     arguments = parser.parse_args()
     rows = (arguments.row or [None]) * (2 if len(arguments.row or "1") == 1 else 1)
     if len(rows) != 2:
@@ -55,8 +55,11 @@ def main():
         runs = [(f"{label}, row {run.row}", run) for label, run in runs]
     path = arguments.output or runs[0][1].pictures / f"beside_{arguments.field}.png"
     title = scene.get("title") or arguments.results[0][1].name
-    FIELDS[arguments.field](runs, title, of_results.view_of(arguments), path)
+    figure = FIELDS[arguments.field](runs, title, view_options.view_of(arguments))
+    if figure is None:
+        raise SystemExit("no interface is there")
+    page.save(figure, path)
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

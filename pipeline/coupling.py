@@ -2,17 +2,17 @@
 
 import numpy as np
 from matplotlib.collections import LineCollection
-
-import page
-from page import BLUE, FACE, GREEN, INK, PALE, VERMILLION, sign
-from plane import WIDTH, Page
+from midplane.pictures import page
+from midplane.pictures.page import BLUE, FACE, GREEN, INK, PALE, VERMILLION, sign
+from midplane.pictures.plane import WIDTH, Page
 
 FEW = 60  # segments that one picture of a line can show; a closed one is shown all
 
 
 def draw_coupling(results, name, title, view):
     """Side A below, side B above, pulled apart; between them segments, grid and law points."""
-    points, segments, cells, parents = results.midplane(name)
+    midplane = results.midplane(name)
+    points, segments, cells, parents = midplane.points, midplane.segments, midplane.cells, midplane.parents
     law_points = results.interfaces[name].points[:, :2]
     pull = pulling(points[segments], np.ptp(points, axis=0).max())
     lay = (lambda places: places) if pull.closed else lying(points[segments[0, 0]], points[segments[-1, 1]])

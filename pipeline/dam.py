@@ -10,12 +10,13 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
+from midplane import scene_file
+from midplane.pictures import page
+from midplane.pictures.page import GREY, INK, RUNS
+from midplane.vtu import Vtu
 
-import page
-import scene_file
 from history import read
-from page import GREY, INK, RUNS
+from told import told
 
 # what the files of the scene are, for the key
 NAMES = {"scene": "pressure by opening", "flow": "flow with a drain", "workshop": "loads of the workshop"}
@@ -56,9 +57,9 @@ def off_statics(scene, folder, run):
         # before the dam has its weight there is nothing to compare
         if run["normal"][row] > -0.5 * own or not path.is_file():
             continue
-        field = pyvista.read(path)
-        normal, shear = field["traction_total"].T
-        length = field["length"]
+        field = Vtu(path)
+        normal, shear = field.point_data["traction_total"].T
+        length = field.point_data["length"]
         errors = (
             (length @ normal + own) / own,
             (length @ shear - thrust) / own,
@@ -151,4 +152,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

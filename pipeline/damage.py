@@ -22,7 +22,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import scene_file
+from midplane import scene_file
 
 ROOT = Path(__file__).resolve().parent.parent
 SECONDS = 10.0

@@ -16,20 +16,21 @@ import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+from midplane import scene_file
+from midplane.names import chosen
+from midplane.pictures import page, plane
+from midplane.pictures.displacement import draw_displacement
+from midplane.pictures.interfaces import draw_interfaces
+from midplane.pictures.principal import draw_principal_stress
+from midplane.pictures.results import Results, View
+from midplane.pictures.traction import draw_along
 
-import page
-import plane
-import results as of_results
-import scene_file
+import view_options
 from coupling import draw_coupling
-from displacement import draw_displacement
-from interfaces import draw_interfaces
+from deviation import deviation
 from joints import entry_of
-from names import chosen
-from principal import draw_principal_stress
-from results import Results, View
 from solutions import SOLUTIONS
-from traction import deviation, draw_traction
+from told import told
 
 FEW = 4  # interfaces that have pictures of their own without being asked for
 
@@ -58,7 +59,7 @@ def parse_arguments():
     )
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/compression/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/compression")
-    of_results.add_arguments(parser)
+    view_options.add_arguments(parser)
     many = {"action": "append", "default": []}
     own = f"traction and coupling of this interface, or of those that fit a pattern; default: all if they are at most {FEW}"
     parser.add_argument("--interface", help=own, metavar="NAME", action="append")
@@ -87,7 +88,7 @@ def exact_tractions(arguments, scene, results):
 
 def main():
     arguments = parse_arguments()
-    view = of_results.view_of(arguments)
+    view = view_options.view_of(arguments)
     scene = scene_file.read(arguments.scene)
     title = scene.get("title") or arguments.results.name
     plt.rcParams.update(page.STYLE)
@@ -111,22 +112,25 @@ def main():
         if name in own:
             entry = entry_of(scene, name)
             label = arguments.label or entry.get("coupling", "projected")
-            draw_traction(results, name, entry["law"], label, others, exact[name], title, view)
+            figure = draw_along(results, name, entry["law"], label, others, exact[name], title, view)
+            page.save(figure, results.pictures / f"traction_{name}.png")
         if exact[name]:
             largest = deviation(results, name, exact[name])
             print(f"{arguments.results}: tractions of {name} are off the exact ones by {largest:.1e}")
             if arguments.within is not None and largest > arguments.within:
                 sys.exit(f"{arguments.results}: that is more than {arguments.within:g}")
-    rendered, runs = plane.can_render(), [("", results)]
-    draw_interfaces(runs, title, view, results.pictures / "interfaces.png", rendered)
-    if not rendered:
+    runs = [("", results)]
+    figure = draw_interfaces(runs, title, view)
+    if figure is not None:
+        page.save(figure, results.pictures / "interfaces.png")
+    if not plane.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return
-    draw_displacement(runs, title, view, results.pictures / "displacement.png")
-    draw_principal_stress(runs, title, view, results.pictures / "principal_stress.png")
+    page.save(draw_displacement(runs, title, view), results.pictures / "displacement.png")
+    page.save(draw_principal_stress(runs, title, view), results.pictures / "principal_stress.png")
     for name in own:
         draw_coupling(results, name, title, view)
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
 from matplotlib.collections import LineCollection
+from midplane.pictures import page, plane
+from midplane.pictures.page import BLUE, FACE, GREEN, INK, MAP, PALE, VERMILLION, sign
+from midplane.pictures.plane import Page
+from midplane.vtu import Vtu
 
-import page
-import plane
-from page import BLUE, FACE, GREEN, INK, MAP, PALE, VERMILLION, sign
-from plane import Page
+from told import told
 
 SEGMENT, GRID, EDGE_A, EDGE_B, FOOT_A, FOOT_B, LAW_POINT = range(7)
 APART = 0.05  # of the interface's extent: how far each side is moved
@@ -29,7 +29,7 @@ class Joint:
 
     def __init__(self, path):
         self.name = path.stem
-        grid = pyvista.read(path)
+        grid = Vtu(path).grid()
         kinds, points = grid["kind"], grid.points[:, :2]
         cells = np.split(grid.cell_connectivity, grid.cell_offsets[1:-1])
         self.lines = {
@@ -123,7 +123,7 @@ def main():
     if not plane.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): nothing drawn")
         return
-    grids = {path: pyvista.read(path) for path in files}
+    grids = {path: Vtu(path).grid() for path in files}
     meshes = [grid for grid in grids.values() if "quality" in grid.cell_data]
     joints = [Joint(path) for path, grid in grids.items() if "kind" in grid.cell_data]
     draw_quality(joints, meshes, arguments.units, arguments.folder)
@@ -132,4 +132,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

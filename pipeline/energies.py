@@ -15,8 +15,7 @@ import io
 
 import meshio
 import numpy as np
-
-import scene_file
+from midplane import scene_file
 
 PROBES = ["work.external", "energy.stored", "energy.dissipated", "energy.released"]
 ROUND_OFF = 1e-9  # of the quantity compared

@@ -8,9 +8,9 @@ curve bears its name.
 from dataclasses import dataclass, field
 
 import numpy as np
+from midplane.pictures.traction import distances
 
 from inclusion import disc
-from traction import arc_length
 
 MANY = 4000  # points of a curve
 
@@ -77,7 +77,7 @@ def dcb(scene, results):
     springs = 1 / (1 / (2 * law["normal_stiffness"]) + height / (2 * young))
     b = (springs / (4 * bending)) ** 0.25
     shear = 2 / (5 / 6 * young / (2 * (1 + material["poisson"])) * height)
-    start = results.midplane("joint")[0][:, 0].min()
+    start = results.midplane("joint").points[:, 0].min()
 
     crack = np.linspace(start, start + 0.5 * (length - start), MANY)
     behind = b * crack
@@ -165,8 +165,7 @@ def inclusion(scene, results):
     )
     pull = scene["steps"][0]["load"]["plate.right"]["traction"][0]
     places = results.interfaces["rim"].points[:, :2]
-    points, segments, _, _ = results.midplane("rim")
-    s, angle = arc_length(places, points[segments[0, 0]]), np.arctan2(places[:, 1], places[:, 0])
+    s, angle = distances(results, "rim"), np.arctan2(places[:, 1], places[:, 0])
     normal = amplitudes["n0"] + amplitudes["n2"] * np.cos(2 * angle)
     shear = -amplitudes["t2"] * np.sin(2 * angle)
     return Exact({}, {"n": (s, pull * normal), "t": (s, pull * shear)})

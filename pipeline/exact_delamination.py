@@ -13,8 +13,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from midplane import scene_file
 
-import scene_file
+from told import told
 
 MANY = 4000
 
@@ -70,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

@@ -1,6 +1,7 @@
 """Exact solutions of cracks in an infinite plane and of Hertz's contact, from the numbers of the scene."""
 
 import numpy as np
+from midplane.pictures.interfaces import course
 
 from exact import MANY, Exact, sizes
 
@@ -14,8 +15,8 @@ def plane_modulus(material):
 
 def chord(results, name):
     """Length of a straight interface, and the cosine and sine of its angle to the x axis."""
-    points, segments, _, _ = results.midplane(name)
-    along = points[segments[-1, 1]] - points[segments[0, 0]]
+    midplane = results.midplane(name)
+    along = np.subtract(midplane.end, midplane.start)
     length = np.hypot(*along)
     return length, *(along / length)
 
@@ -56,8 +57,7 @@ def hertz(scene, results):
     curve = {"force": force, "pressure": np.sqrt(force * together / (np.pi * radius))}
     half, peak = np.sqrt(4 * end * radius / (np.pi * together)), curve["pressure"][-1]
 
-    points, segments, _, _ = results.midplane("joint")
-    line = np.vstack([points[segments[:, 0]], points[segments[-1:, 1]]])
+    line = course(results.midplane("joint"))
     s = np.append(0.0, np.cumsum(np.hypot(*np.diff(line, axis=0).T)))
     x = half * np.sin(np.linspace(0, np.pi / 2, MANY))
     normal = -peak * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))

@@ -10,10 +10,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from midplane import scene_file
+from midplane.pictures.traction import distances
 
-import scene_file
 from exact import Exact
-from traction import arc_length
+from told import told
 
 # tolerances of N [MN/m], M [MN], V [MN/m] and displacements [m]
 NEAR = {"N": 1e-4, "M": 2e-5, "V": 2e-5, "u": 1e-6}
@@ -152,8 +153,7 @@ def lining(scene, results):
         (nr, nc), (tr, tc) = (
             [(direction * other).sum(axis=1) for other in (outward, across)] for direction in (normal, tangent)
         )
-        points, segments, _, _ = results.midplane(name)
-        s = arc_length(field.points[:, :2], points[segments[0, 0]])
+        s = distances(results, name)
         traction[f"{name}.n"] = s, nr * nr * radial + 2 * nr * nc * shear + nc * nc * hoop
         traction[f"{name}.t"] = s, nr * tr * radial + (nr * tc + nc * tr) * shear + nc * tc * hoop
     return Exact({}, traction)
@@ -173,4 +173,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

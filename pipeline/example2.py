@@ -12,11 +12,12 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pyvista
+from midplane.pictures import page
+from midplane.pictures.page import DASHES, GREY, PALE, RUNS, sign
+from midplane.vtu import Vtu
 
-import page
 from history import read
-from page import DASHES, GREY, PALE, RUNS, sign
+from told import told
 
 PRESSURES = [1, 5, 20]
 MM = 1e-3  # m
@@ -29,7 +30,7 @@ def run(program, scene, pressure, folder):
     pressed = json.loads(scene.read_text())  # for the check
     pressed["steps"][0]["load"]["upper.top"]["pressure"] = pressure
     (folder / "scene.json").write_text(json.dumps(pressed, indent=2))
-    fields = (pyvista.read(path)["traction"] for path in folder.glob("fields/joint_*.vtu"))
+    fields = (Vtu(path).point_data["traction"] for path in folder.glob("fields/joint_*.vtu"))
     return read(folder), max(np.ptp(field, axis=0).max() for field in fields)
 
 
@@ -114,4 +115,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

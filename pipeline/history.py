@@ -6,31 +6,28 @@ between the lowest and the highest, from a CSV with the columns x, low, high in 
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from midplane import scene_file
+from midplane.names import unknown
+from midplane.pictures import labels, page
+from midplane.pictures.page import DASHES, GREY, MARKERS, PALE, RUNS, SOFT
+from midplane.pictures.results import Results
 
-import labels
 import measured
-import page
-import scene_file
-from names import unknown
-from page import DASHES, GREY, MARKERS, PALE, RUNS, SOFT
-from results import Results
 from solutions import SOLUTIONS
+from told import told
 
 LEVELS = [DASHES, (0, (1, 2)), (0, (6, 2, 1, 2))]
 
 
 def read(folder):
     """The columns of history.csv by name, from the unloaded state on."""
-    with open(folder / "history.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    names = [name for name in rows[0] if name != "step"]
-    return {name: np.array([float(row[name]) for row in rows]) for name in names}
+    frame = Stored(folder).history()
+    return {name: frame[name].to_numpy(float) for name in frame if name != "step"}
 
 
 def read_columns(folder, columns):
@@ -215,4 +212,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

@@ -10,12 +10,12 @@ A VALUE is one of
 
 import argparse
 import ast
-import csv
 import math
 import operator
 from dataclasses import dataclass
 
 import numpy as np
+from midplane.stored import Stored
 
 OPERATORS = {
     ast.Add: operator.add,
@@ -165,8 +165,7 @@ def argument(form):
 
 def rows_of(path):
     """The rows of a history.csv beyond the unloaded state, numbers as numbers."""
-    with open(path, newline="") as file:
-        return [{key: text if key == "step" else float(text) for key, text in row.items()} for row in csv.DictReader(file)][1:]
+    return Stored(path.parent).history().to_dict("records")[1:]
 
 
 def value_of(name, rows, fields):

@@ -15,12 +15,12 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap, Normalize
+from midplane import scene_file
+from midplane.names import unknown
+from midplane.pictures import labels, page
+from midplane.pictures.page import DASHES, INK, OPEN, PALE, STATUS, TIED, sign
 
-import labels
-import page
-import scene_file
-from names import unknown
-from page import DASHES, INK, OPEN, PALE, STATUS, TIED, sign
+from told import told
 
 WORK = LinearSegmentedColormap.from_list("work", ["#5E5E5A", "#D5D5D1"])  # surfaces, the later the paler
 SURFACES = 5
@@ -213,4 +213,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    told(main)

@@ -8,8 +8,7 @@ import csv
 from dataclasses import dataclass
 
 import numpy as np
-
-from page import GREY, PALE
+from midplane.pictures.page import GREY, PALE
 
 
 @dataclass

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Put the hashes of all files of every pinned version into requirements.txt, so that pip installs nothing else.
+"""Put the hashes of all files of every pinned version into a requirements.txt, so that pip installs nothing else.
 
-    pin.py            after raising a version, or after `pip freeze` into pipeline/requirements.txt
+    pin.py [pipeline/requirements.txt]    after raising a version, or after `pip freeze` into that file
 """
 
 import re
@@ -23,8 +23,9 @@ def hashes(name, version):
 
 
 def main():
+    file = Path(sys.argv[1]) if len(sys.argv) > 1 else FILE
     lines = []
-    for line in FILE.read_text().splitlines():
+    for line in file.read_text().splitlines():
         found = re.match(r"([A-Za-z0-9_.\-]+)==([^\s;\\]+)", line)
         if not found:
             if not line.strip().startswith("--hash"):
@@ -34,7 +35,7 @@ def main():
         if not digests:
             sys.exit(f"{found[0]}: the index has no file of this version")
         lines.append(" \\\n    ".join([found[0], *(f"--hash=sha256:{digest}" for digest in digests)]))
-    FILE.write_text("\n".join(lines) + "\n")
+    file.write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
+from midplane.pictures import page
+from midplane.pictures.page import INK, MARKERS, RUNS, VERMILLION
 from plotly.offline import get_plotlyjs
 
-import page
-from page import INK, MARKERS, RUNS, VERMILLION
 from page_text import page_text
 
 AGAINST = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}

@@ -5,10 +5,10 @@ import math
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
 from matplotlib.ticker import NullFormatter
+from midplane.pictures import page
+from midplane.pictures.page import BLUE, GREEN, INK, MARKERS, ORANGE, PALE, PURPLE, RUNS, SKY, VERMILLION
 from plotly.subplots import make_subplots
 
-import page
-from page import BLUE, GREEN, INK, MARKERS, ORANGE, PALE, PURPLE, RUNS, SKY, VERMILLION
 from trade_front import FLOOR, error_of, label
 
 PHASES = {

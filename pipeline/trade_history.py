@@ -1,22 +1,16 @@
 """Histories of a campaign's runs."""
 
-import csv
+from midplane.errors import ResultsError
+from midplane.stored import Stored
 
 
-def read_history(file):
-    """The columns of a history.csv that are numbers; none if it is not there."""
+def read_history(folder):
+    """The columns of the history of a run that are numbers; none if it is not there."""
     try:
-        with open(file) as text:
-            rows = list(csv.DictReader(text))
-    except OSError:
+        frame = Stored(folder).history()
+    except ResultsError:
         return {}
-    columns = {}
-    for name in rows[0] if rows else ():
-        try:
-            columns[name] = [float(row[name]) for row in rows]
-        except ValueError:
-            continue
-    return columns
+    return {name: column.tolist() for name, column in frame.select_dtypes("number").items()}
 
 
 def curves(scene, campaign):
@@ -26,7 +20,7 @@ def curves(scene, campaign):
         for k, row in enumerate(campaign.points):
             if row["phase"] != "sweep" or list(row["labels"]) not in (["refinement"], ["increments"]):
                 continue
-            columns = read_history(campaign.out / "sweep" / "out" / "points" / f"{k:04}" / "history.csv")
+            columns = read_history(campaign.out / "sweep" / "out" / "points" / f"{k:04}")
             if x in columns and y in columns:
                 result.append({"title": title, "labels": row["labels"], "x": columns[x], "y": columns[y]})
     return result

@@ -97,10 +97,10 @@ class Front:
         rows = self.campaign.study("turned", points, fields)
         result = []
         for k, row in enumerate(rows):
-            history = self.campaign.out / "turned" / "out" / "points" / f"{k:04}" / "history.csv"
+            folder = self.campaign.out / "turned" / "out" / "points" / f"{k:04}"
             errors = [row["errors"][name] for name in fields]
             if row["status"] == "done":
-                table = read_history(history)
+                table = read_history(folder)
                 for name, m in scalars.items():
                     value = taken(m, turned.along(table, probe[name]))
                     errors.append(abs(value - m["reference"]) / abs(m["reference"]))

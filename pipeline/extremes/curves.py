@@ -4,8 +4,7 @@ from itertools import cycle
 
 import matplotlib.pyplot as pyplot
 import numpy as np
-
-import page
+from midplane.pictures import page
 
 FLOOR = 1e-18  # what is exactly zero is drawn here
 

@@ -14,8 +14,9 @@ import tempfile
 import time
 from pathlib import Path
 
-import meshio
 import numpy as np
+from midplane.stored import Stored
+from midplane.vtu import Vtu
 
 LONGEST = 60.0  # seconds of any run
 FIELDS_READ = 12  # files of fields looked through for NaN, from the last
@@ -124,8 +125,8 @@ class Run:
             if re.search(r"\b(nan|inf(inity)?)\b", re.sub(r'"[^"]*"', "", path.read_text()), re.IGNORECASE):
                 raise Never(f"{path.name} holds NaN or inf after exit code 0")
         for path in sorted(self.out.glob("fields/*.vtu"))[-FIELDS_READ:]:
-            grid = meshio.read(path)
-            arrays = list(grid.point_data.values()) + [b for data in grid.cell_data.values() for b in data]
+            grid = Vtu(path)
+            arrays = [*grid.point_data.values(), *grid.cell_data.values()]
             if not all(np.isfinite(array).all() for array in arrays):
                 raise Never(f"{path.name} holds NaN or inf after exit code 0")
 
@@ -147,7 +148,8 @@ class Run:
 
     def history(self):
         """{column: values of the increments}, without the unloaded state; numbers where all are numbers."""
-        return {name: values[1:] for name, values in table((self.out / "history.csv").read_text()).items()}
+        rows = Stored(self.out).history()[1:]
+        return {name: rows[name].to_numpy() if rows[name].dtype != object else rows[name].tolist() for name in rows}
 
     def rows(self):
         """The CSV of the law command."""
@@ -155,7 +157,7 @@ class Run:
 
     def fields(self, name, number=-1):
         """The file of a body or joint at an increment, the last by default."""
-        return meshio.read(sorted(self.out.glob(f"fields/{name}_[0-9]*.vtu"))[number])
+        return Vtu(sorted(self.out.glob(f"fields/{name}_[0-9]*.vtu"))[number])
 
     def points(self, body):
         return self.fields(body).points[:, :2]
@@ -165,7 +167,7 @@ class Run:
 
     def stress(self, body):
         """xx, yy, xy by cell."""
-        return np.concatenate(self.fields(body).cell_data["stress"])[:, [0, 1, 3]]
+        return self.fields(body).cell_data["stress"][:, [0, 1, 3]]
 
     def joint(self, name="joint", number=-1):
         """Point arrays of a joint's law points, with their `place`."""
@@ -177,10 +179,9 @@ class Run:
 
     def segments(self, name="joint"):
         """Arc lengths of start and end of the segments."""
-        grid = meshio.read(self.out / "midplane" / f"{name}.vtu")
-        ends = np.concatenate([block.data for block in grid.cells])
-        kind = np.concatenate(grid.cell_data["kind"]).ravel()
-        return grid.point_data["arc_length"].ravel()[ends[kind == 0]]
+        grid = Vtu(self.out / "midplane" / f"{name}.vtu")
+        ends = grid.cells["connectivity"].reshape(-1, 2)
+        return grid.point_data["arc_length"][ends[grid.cell_data["kind"] == 0]]
 
 
 def table(text):

@@ -1,17 +1,29 @@
 """Pictures of the plane at true proportions: one page or two beside each other, and VTK's rendering on it."""
 
+from __future__ import annotations
+
 import math
 import os
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pyvista
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.image import AxesImage
 from matplotlib.ticker import MaxNLocator
 
-import page
-from page import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH
+from ..vtu import Array
+from . import page
+from .page import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH
+
+Bounds = tuple[tuple[float, float], tuple[float, float]]  # smallest and largest x, then y
 
 # in inches
 BAR = 0.75  # more room on the right, for a colour bar
@@ -33,15 +45,36 @@ raise SystemExit(not window.SupportsOpenGL())
 """
 
 
-def can_render():
-    """Set up the first way of off-screen rendering that works; tried in a child, as VTK crashes without."""
-    for window in ("vtkOSOpenGLRenderWindow", "vtkEGLRenderWindow"):
-        environment = {**os.environ, "VTK_DEFAULT_OPENGL_WINDOW": window}
-        child = subprocess.run([sys.executable, "-c", PROBE], env=environment, capture_output=True)
+WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"  # by which VTK is told how to render
+
+
+@cache
+def window() -> str | None:
+    """The first way of off-screen rendering that works; tried in a child, as VTK crashes without."""
+    for way in ("vtkOSOpenGLRenderWindow", "vtkEGLRenderWindow"):
+        child = subprocess.run([sys.executable, "-c", PROBE], env={**os.environ, WINDOW: way}, capture_output=True, check=False)
         if child.returncode == 0:
-            os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = window
-            return True
-    return False
+            return way
+    return None
+
+
+def can_render() -> bool:
+    """Whether meshes can be rendered."""
+    return window() is not None
+
+
+@contextmanager
+def off_screen() -> Iterator[None]:
+    """VTK renders off-screen, and afterwards as before."""
+    before = os.environ.get(WINDOW)
+    os.environ[WINDOW] = window() or ""
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[WINDOW]
+        else:
+            os.environ[WINDOW] = before
 
 
 class Page:
@@ -50,7 +83,9 @@ class Page:
     Two captions make two pictures, side by side or one above the other, as they become larger.
     """
 
-    def __init__(self, bounds, title, subtitle, bar=0.0, captions=("",), below=0.0, cut=False):
+    def __init__(
+        self, bounds: Bounds, title: str, subtitle: str, bar: float = 0.0, captions: tuple[str, ...] = ("",), below: float = 0.0, cut: bool = False
+    ) -> None:
         (x0, x1), (y0, y1) = bounds
         count, top = len(captions), TOP if captions == ("",) else TOP + page.CAPTION
         rows = min((1, count), key=lambda rows: scale(bounds, rows, count // rows))
@@ -65,8 +100,9 @@ class Page:
         needed = max(whole[0] + bar, min(max(NARROWEST, text), WIDTH))
         self.size = (LEFT + needed + RIGHT, below + BOTTOM + whole[1] + top)
         self.box = (LEFT, below + BOTTOM, *whole)
-        self.figure = plt.figure(figsize=self.size)
-        self.axes, self.captions, self.cut = [], [], cut
+        self.figure = page.sheet(*self.size)
+        self.axes: list[Axes] = []
+        self.captions, self.cut = [], cut
         for number, caption in enumerate(captions):
             across, down = (number, 0) if rows == 1 else (0, number)
             left, up = across * (width + APART), (rows - 1 - down) * (height + APART)
@@ -82,24 +118,26 @@ class Page:
         self.axis = self.axes[0]
         page.heading(self.axis, title, subtitle, raised=top - TOP)
 
-    def place(self, left, bottom, width, height):
+    def place(self, left: float, bottom: float, width: float, height: float) -> Axes:
         """An axis at a place given in inches."""
         across, up = self.size
         return self.figure.add_axes((left / across, bottom / up, width / across, height / up))
 
-    def label(self, unit):
+    def label(self, unit: str) -> None:
         """The names of the axes."""
         for axis in self.axes:
-            axis.set(xlabel=f"x [{unit}]" if axis.xaxis.get_tick_params()["labelbottom"] else "")
-            axis.set(ylabel=f"y [{unit}]" if axis.yaxis.get_tick_params()["labelleft"] else "")
+            shown_x, shown_y = (line.get_tick_params() or {} for line in (axis.xaxis, axis.yaxis))
+            axis.set(xlabel=f"x [{unit}]" if shown_x["labelbottom"] else "")
+            axis.set(ylabel=f"y [{unit}]" if shown_y["labelleft"] else "")
 
-    def render(self, meshes, edge, axis=None, **look):
+    def render(self, meshes: Sequence[Any], edge: str | None, axis: Axes | None = None, **look: Any) -> AxesImage:
         """Let VTK draw the cells of the meshes and their edges, if these have a colour, seen straight from above."""
         axis = axis or self.axis
         (x0, x1), (y0, y1) = axis.get_xlim(), axis.get_ylim()
         pixels = np.array([x1 - x0, y1 - y0]) / self.inch * self.figure.dpi * OVERSAMPLE
         whole = together(meshes)
-        plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
+        with off_screen():
+            plotter = pyvista.Plotter(off_screen=True, window_size=np.ceil(pixels).astype(int).tolist())
         plotter.add_mesh(whole, lighting=False, show_scalar_bar=False, **look)
         if edge:
             cell = math.sqrt(whole.area / whole.n_cells) / self.inch  # size of one on paper
@@ -113,49 +151,50 @@ class Page:
         plotter.camera.clipping_range = (1e-2 * (x1 - x0), 2 * (x1 - x0))
         image = plotter.screenshot(None, transparent_background=True, return_img=True)
         plotter.close()
-        place = {"extent": (x0, x1, y0, y1), "aspect": "auto", "zorder": 1}
-        return axis.imshow(image, interpolation="antialiased", **place)
+        return axis.imshow(image, interpolation="antialiased", extent=(x0, x1, y0, y1), aspect="auto", zorder=1)
 
-    def colour_bar(self, levels, colours, label):
+    def colour_bar(self, levels: Array, colours: Colormap, label: str) -> None:
         """A colour bar as high as the pictures, to the right of them, with a band between every two levels."""
         left, bottom, width, height = self.box
         axis = self.place(left + width + 0.1, bottom, 0.13, height)
-        colour_scale = plt.cm.ScalarMappable(plt.Normalize(levels[0], levels[-1]), colours)
+        colour_scale = ScalarMappable(Normalize(levels[0], levels[-1]), colours)
         ticks = levels[:: math.ceil(0.15 * len(levels) / height)]
         bar = self.figure.colorbar(colour_scale, cax=axis, label=label, ticks=ticks, format="{x:.12g}")
-        bar.outline.set_visible(False)
+        outline: Any = bar.outline
+        outline.set_visible(False)
         axis.tick_params(length=0)
 
-    def key(self, handles):
+    def key(self, handles: Sequence[Any]) -> None:
         """A legend below the axes."""
         page.key_below(self.figure, handles)
 
-    def points(self, length):
+    def points(self, length: float) -> float:
         """A length of the plane on paper, in points."""
         return 72 * length / self.inch
 
 
-def scale(bounds, rows, columns):
+def scale(bounds: Bounds, rows: int, columns: int) -> float:
     """The length that one inch stands for where pictures of the bounds stand in rows and columns."""
-    width, height = (np.ptp(range_) for range_ in bounds)
+    width, height = (float(np.ptp(range_)) for range_ in bounds)
     up = HEIGHT if rows == 1 else TALLER * HEIGHT
     return max(columns * width / (WIDTH - APART * (columns - 1)), rows * height / (up - APART * (rows - 1)))
 
 
-def largest_scale(bounds, count):
+def largest_scale(bounds: Bounds, count: int) -> float:
     """The same for one picture, or for two in the way that makes them larger."""
     return min(scale(bounds, rows, count // rows) for rows in (1, count))
 
 
-def frame(meshes, margin=0.04):
+def frame(meshes: Sequence[Any], margin: float = 0.04) -> Bounds:
     """Bounds that hold the meshes and some air around them."""
     low = np.min([mesh.points[:, :2].min(axis=0) for mesh in meshes], axis=0)
     high = np.max([mesh.points[:, :2].max(axis=0) for mesh in meshes], axis=0)
     air = margin * (high - low).max()
-    return (low[0] - air, high[0] + air), (low[1] - air, high[1] + air)
+    (x0, y0), (x1, y1) = (low - air).tolist(), (high + air).tolist()
+    return (x0, x1), (y0, y1)
 
 
-def outline(*meshes):
+def outline(*meshes: Any) -> list[Array]:
     """The boundaries of meshes as polylines, so that dashes run on over their nodes."""
     mesh = together(meshes)
     kinds = {"feature_edges": False, "non_manifold_edges": False, "manifold_edges": False}
@@ -169,6 +208,7 @@ def outline(*meshes):
     return found
 
 
-def together(meshes):
+def together(meshes: Iterable[Any]) -> Any:
     """Meshes as one, nodes that coincide left apart."""
-    return pyvista.merge(list(meshes), merge_points=False) if len(meshes) > 1 else meshes[0]
+    every = list(meshes)
+    return pyvista.merge(every, merge_points=False) if len(every) > 1 else every[0]

@@ -4,16 +4,24 @@ A cross shows the stress of the cell under its centre. Parts too thin for the gr
 apart. Where the stresses in two materials differ by much, as in a lining and the ground, each has a scale of its own, told below.
 """
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
 
-import page
-import plane
-from names import grouped
-from page import BLUE, FACE, VERMILLION, Bar, sign
-from plane import Page
+from ..names import grouped
+from ..vtu import Array
+from . import page, plane
+from .page import BLUE, FACE, VERMILLION, Bar, sign
+from .plane import Bounds, Page
+from .results import Runs, View
 
 CROSSES = 500  # about so many on a page
 CLOSEST, FARTHEST = 0.045, 0.2  # of two crosses [inch]
@@ -32,16 +40,17 @@ BAR = 12.0  # length of the bar that shows a scale, at least about [points]
 class Crosses:
     """Places in one part, principal stresses there and their first direction."""
 
-    places: np.ndarray
-    principal: np.ndarray
-    angle: np.ndarray
+    places: Array
+    principal: Array
+    angle: Array
 
     @property
-    def size(self):
-        return np.abs(self.principal).max(axis=1)
+    def size(self) -> Array:
+        """The larger principal stress of each."""
+        return np.asarray(np.abs(self.principal).max(axis=1))
 
 
-def draw_principal_stress(runs, title, view, path):
+def draw_principal_stress(runs: Runs, title: str, view: View) -> Figure:
     """Crosses: arms along the principal directions, as long as the stress is large; `runs` are one or two (caption, results)."""
     bodies = [results.bodies(view) for _, results in runs]
     every = [mesh for meshes in bodies for mesh in meshes.values()]
@@ -53,29 +62,29 @@ def draw_principal_stress(runs, title, view, path):
     inner = view.zoom or plane.frame(every, margin=0.0)
     apart = distance(bodies, inner, sheet.inch)
     crosses = [sample(meshes, inner, apart) for meshes in bodies]
-    stress = {}
+    stress: dict[str, Array] = {}
     for (_, results), run in zip(runs, crosses, strict=True):
         for name, here in run.items():
             material = results.material(name)
-            stress[material] = np.append(stress.get(material, []), here.size)
+            stress[material] = np.append(stress.get(material, np.array([])), here.size)
     groups = scales(stress)
     lengths = {material: ARM * apart / value for value, materials in groups for material in materials}  # per stress
     for axis, (_, results), meshes, run in zip(sheet.axes, runs, bodies, crosses, strict=True):
         sheet.render(list(meshes.values()), "#DCDCD9", axis, color=FACE)
         draw_crosses(axis, [(here, lengths[results.material(name)]) for name, here in run.items() if len(here.size)])
-    signs = [sign("compression", BLUE, linewidth=1.4), sign("tension", VERMILLION, linewidth=1.4)]
+    signs: list[Any] = [sign("compression", BLUE, linewidth=1.4), sign("tension", VERMILLION, linewidth=1.4)]
     sheet.key(signs + scale_bars(groups, sheet.points(ARM * apart), view.stress))
-    page.save(sheet.figure, path)
+    return sheet.figure
 
 
-def distance(bodies, bounds, inch):
+def distance(bodies: Sequence[Mapping[str, Any]], bounds: Bounds, inch: float) -> float:
     """Of two crosses in the plane: as many as a page bears."""
     area = max(sum(mesh.area for mesh in meshes.values()) for meshes in bodies)
     area = min(area, np.prod([np.ptp(range_) for range_ in bounds]))
-    return inch * np.clip(np.sqrt(area / CROSSES) / inch, CLOSEST, FARTHEST)
+    return inch * float(np.clip(np.sqrt(area / CROSSES) / inch, CLOSEST, FARTHEST))
 
 
-def sample(bodies, bounds, apart):
+def sample(bodies: Mapping[str, Any], bounds: Bounds, apart: float) -> dict[str, Crosses]:
     """Crosses by the name of the part, each place in one part only."""
     grid = even(bounds, apart)
     free = np.full(len(grid), True)
@@ -94,7 +103,7 @@ def sample(bodies, bounds, apart):
     return found
 
 
-def even(bounds, apart):
+def even(bounds: Sequence[Sequence[float]], apart: float) -> Array:
     """Points in the middle of the squares that the bounds are cut into."""
     lines = []
     for low, high in bounds:
@@ -103,7 +112,7 @@ def even(bounds, apart):
     return np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 2)
 
 
-def inside(mesh, points):
+def inside(mesh: Any, points: Array) -> tuple[Array, Array]:
     """Which of the points lie in the mesh, and the cells there."""
     (x0, x1, y0, y1, *_), low, high = mesh.bounds, points.min(axis=0, initial=0), points.max(axis=0, initial=0)
     if not len(points) or x1 < low[0] or x0 > high[0] or y1 < low[1] or y0 > high[1]:
@@ -115,12 +124,12 @@ def inside(mesh, points):
     return near[cells >= 0], cells[cells >= 0]
 
 
-def thickness(mesh, edge):
+def thickness(mesh: Any, edge: Sequence[Array]) -> float:
     """About the thickness of a thin part: twice its area over its boundary."""
-    return 2 * mesh.area / sum(np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in edge)
+    return 2 * float(mesh.area) / sum(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in edge)
 
 
-def along_the_middle(mesh, edge, thick, bounds, apart):
+def along_the_middle(mesh: Any, edge: Sequence[Array], thick: float, bounds: Bounds, apart: float) -> tuple[Array, Array]:
     """Places about the middle of a thin part, not closer than the crosses of the grid, and the cells there."""
     box = [mesh.bounds[:2], mesh.bounds[2:4]]
     fine = min(apart, thick) / FINE
@@ -133,21 +142,21 @@ def along_the_middle(mesh, edge, thick, bounds, apart):
     places, cells = places[seen][::step], cells[seen][::step]
     if not len(places):
         return places, cells
-    edge = np.concatenate([densely(line, fine) for line in edge])
-    depth = np.array([np.hypot(*(edge - place).T).min() for place in places])
+    border = np.concatenate([densely(line, fine) for line in edge])
+    depth = np.array([np.hypot(*(border - place).T).min() for place in places])
     deepest = np.array([depth[np.hypot(*(places - place).T) < apart].max() for place in places])
     middle = np.flatnonzero(depth >= 0.8 * deepest)
     taken = middle[one_after_the_other(places[middle], 0.95 * apart)]
     return places[taken], cells[taken]
 
 
-def densely(line, fine):
+def densely(line: Array, fine: float) -> Array:
     """The points of a polyline and more between them."""
-    parts = [np.linspace(a, b, 2 + int(np.hypot(*(b - a)) / fine)) for a, b in zip(line[:-1], line[1:], strict=True)]
+    parts = [np.linspace(a, b, 2 + int(np.hypot(*(b - a)) / fine)) for a, b in pairwise(line)]
     return np.concatenate(parts)
 
 
-def one_after_the_other(places, apart):
+def one_after_the_other(places: Array, apart: float) -> list[int]:
     """Indices of places from one end on, each as near to those before as it may be."""
     taken = [int(np.lexsort(places.T[::-1])[0])]
     nearest = np.hypot(*(places - places[taken[0]]).T)
@@ -157,11 +166,11 @@ def one_after_the_other(places, apart):
     return taken
 
 
-def scales(stress):
+def scales(stress: Mapping[str, Array]) -> list[tuple[float, list[str]]]:
     """Materials by the stresses of their crosses: (stress of the usual arm, materials), from the largest down."""
-    middle = {material: np.median(sizes) for material, sizes in stress.items() if len(sizes)}
-    groups = []
-    for material in sorted(middle, key=middle.get, reverse=True):
+    middle = {material: float(np.median(sizes)) for material, sizes in stress.items() if len(sizes)}
+    groups: list[list[str]] = []
+    for material in sorted(middle, key=lambda material: -middle[material]):
         largest = middle[groups[-1][0]] if groups else 0.0
         if not groups or (0 < middle[material] < largest / APART and len(groups) < SCALES):
             groups.append([])
@@ -169,12 +178,12 @@ def scales(stress):
     return [(usual(np.concatenate([stress[material] for material in group])), group) for group in groups]
 
 
-def usual(sizes):
+def usual(sizes: Array) -> float:
     """The stress that most do not exceed, so large that no arm becomes too long."""
-    return max(np.percentile(sizes, USUAL), sizes.max() / LARGEST) or 1.0
+    return max(float(np.percentile(sizes, USUAL)), float(sizes.max()) / LARGEST) or 1.0
 
 
-def scale_bars(groups, length, unit):
+def scale_bars(groups: Sequence[tuple[float, list[str]]], length: float, unit: str) -> list[Bar]:
     """An entry of the key for every scale, of a round stress; with the materials where there are several."""
     bars = []
     for largest, materials in groups:
@@ -184,10 +193,10 @@ def scale_bars(groups, length, unit):
     return bars
 
 
-def draw_crosses(axis, crosses):
+def draw_crosses(axis: Axes, crosses: Sequence[tuple[Crosses, float]]) -> None:
     """The arms of (crosses, length per stress) in the colour of their sign."""
-    lines = {BLUE: [], VERMILLION: []}
-    small = 1e-6 * max(here.size.max(initial=0.0) for here, _ in crosses)
+    lines: dict[str, list[Array]] = {BLUE: [], VERMILLION: []}
+    small = 1e-6 * max(float(here.size.max(initial=0.0)) for here, _ in crosses)
     for here, length in crosses:
         for column, turn in ((0, 0.0), (1, np.pi / 2)):
             direction = np.column_stack([np.cos(here.angle + turn), np.sin(here.angle + turn)])
@@ -196,6 +205,5 @@ def draw_crosses(axis, crosses):
             ends = np.stack([here.places - arm, here.places + arm], axis=1)
             lines[BLUE].append(ends[value < -small])
             lines[VERMILLION].append(ends[value > small])
-    for colour, ends in lines.items():
-        look = {"colors": colour, "linewidths": 0.9, "zorder": 2}
-        axis.add_collection(LineCollection(np.concatenate(ends), **look), autolim=False)
+    for colour, parts in lines.items():
+        axis.add_collection(LineCollection(list(np.concatenate(parts)), colors=colour, linewidths=0.9, zorder=2), autolim=False)

@@ -1,0 +1,13 @@
+"""What results lack is told in one line."""
+
+import sys
+
+from midplane.errors import MidplaneError
+
+
+def told(main):
+    """Runs the program; an error that the reader of results finds is its last line, with exit code 1."""
+    try:
+        main()
+    except MidplaneError as error:
+        sys.exit(str(error))
