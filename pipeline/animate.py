@@ -22,6 +22,7 @@ from midplane.pictures import displacement, interfaces, page, plane
 from midplane.pictures.page import BLUE, FACE, PALE, STATUS, sign
 from midplane.pictures.plane import Page
 from midplane.pictures.results import Results
+from midplane.stored import text_rows
 from PIL import Image
 
 import history

@@ -16,6 +16,7 @@ from midplane.names import unknown
 from midplane.pictures import labels, page
 from midplane.pictures.page import DASHES, GREY, MARKERS, PALE, RUNS, SOFT
 from midplane.pictures.results import Results
+from midplane.stored import Stored
 
 import measured
 from solutions import SOLUTIONS

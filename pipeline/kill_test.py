@@ -11,7 +11,6 @@ run was gone on with. Ends with exit code 1 if one case did not.
 import argparse
 import csv
 import json
-import os
 import random
 import shutil
 import signal

@@ -7,7 +7,7 @@ import common
 clock = common.Clock()
 import ngsolve
 import numpy as np
-from netgen.meshing import Element2D, FaceDescriptor
+from netgen.meshing import FaceDescriptor
 from netgen.meshing import Mesh as Netgen
 from ngsolve import la
 from pyngcore import TaskManager
