@@ -4,7 +4,7 @@
 //! fall, nothing is NaN; the mirrored way gives the mirrored traction; a step repeated is elastic and changes nothing.
 
 use crate::law_help::Random;
-use midplane::law::{Cracking, Integration, Law, Local, PointLaw, Response, State, Unloading, WORK};
+use midplane::law::{Cracking, Integration, Law, Local, Response, State, Unloading, WORK};
 
 /// Of the strength or the traction.
 const ROUNDING: f64 = 1e-12;
