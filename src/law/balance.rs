@@ -23,7 +23,7 @@ const GAIN: f64 = 4.0;
 /// It is accepted to this when rounding forbids more.
 const NEARLY_MET: f64 = 1e-7;
 const ITERATIONS: usize = 60;
-/// The search for a bracket ends this many times farther than the elastic reach.
+/// A search ends, and a correction goes, at most this many times farther than the elastic reach.
 const FARTHEST: f64 = 1e8;
 /// Halvings of a Newton correction that makes things worse, and trials of all corrections.
 const HALVINGS: usize = 12;
@@ -132,7 +132,9 @@ fn both(
         }
         let Some(inverse): Option<LocalMatrix> = response.stiffness.try_inverse() else { break };
         let correction = inverse * over;
-        let mut part = 1.0;
+        // where next to nothing resists it would go to where a law takes long to answer
+        let far = correction.component_mul(&k).amax() / (FARTHEST * scale);
+        let mut part = if far > 1.0 { 1.0 / far } else { 1.0 };
         let better = (0..HALVINGS).find_map(|_| {
             trials += 1;
             let trial = respond(jump - correction * part).ok()?;
@@ -152,4 +154,36 @@ fn both(
 /// The largest component; infinite if one is no number.
 fn largest(of: &Local) -> f64 {
     if of.iter().all(|x| x.is_finite()) { of.amax() } else { f64::INFINITY }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+
+    /// Claim: of a point without tensile strength that is pulled no answer is asked for jumps beyond all sizes, however little resists.
+    #[test]
+    fn a_search_stays_within_reach() {
+        let law: Law = serde_json::from_str(
+            r#"{ "type": "cracking", "normal_stiffness": 1e4, "tangential_stiffness": 5e4, "tensile_strength": 0, "cohesion": 0.8,
+                "tan_friction": 0.4, "fracture_energy_i": 3.8e-4, "fracture_energy_iia": 1.2e-3, "dilatancy_stress": 6,
+                "unloading": "plastic" }"#,
+        )
+        .unwrap();
+        for pull in [1.0, 0.5, 1e-3] {
+            let (asked, farthest) = (Cell::new(0), Cell::new(0.0_f64));
+            let respond = |jump: Local| {
+                asked.set(asked.get() + 1);
+                farthest.set(farthest.get().max(jump.amax()));
+                law.respond(jump, &State::default(), Integration::Tolerance(1e-4))
+                    .map_err(|why| why.to_string())
+            };
+            let refused = both(&law, &State::default(), Local::new(pull, -3e-9 * pull, 0.0), respond);
+            assert!(refused.is_err(), "{pull}: {refused:?}");
+            let reach = pull.max(0.8) / 1e4;
+            assert!(farthest.get() <= 2.0 * FARTHEST * reach, "{pull}: {:e}", farthest.get());
+            assert!(asked.get() > 2);
+        }
+    }
 }
