@@ -28,7 +28,7 @@ CORPUS_FILES = 60  # of a target
 TARGETS = ["msh", "scene", "study", "path", "expression", "bind", "pairing"]
 # longest input [bytes], and the part of the runs that a target gets, by what one costs
 LONGEST = {"msh": 8192, "scene": 4096, "study": 4096, "path": 2048, "expression": 128, "bind": 4096, "pairing": 512}
-SHARE = {"msh": 1.0, "scene": 1.0, "study": 0.3, "path": 0.05, "expression": 3.2, "bind": 0.3, "pairing": 1.5}
+SHARE = {"msh": 1.0, "scene": 1.0, "study": 0.3, "path": 0.03, "expression": 3.2, "bind": 0.3, "pairing": 1.5}
 LIMITS = ["-timeout=10", "-rss_limit_mb=1024", "-report_slow_units=10"]
 # scenes with all that a scene can say, their meshes as coarse as they can be
 SCENES = {
