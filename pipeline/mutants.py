@@ -211,6 +211,9 @@ def page(sites, options):
     """The report in Markdown."""
     areas = {site["area"]: None for site in sites}
     lines = ["# Mutants", "", f"Written by `make mutants`: {len(sites)} places, drawn with seed {options.seed}, each made wrong in turn.", ""]
+    again = sum(site.get("again", False) for site in sites)
+    if again:
+        lines[-1:] = [f"{again} of them survived at first; tests were added, and these were tried once more (`make mutants again=1`).", ""]
     lines += ["| area | mutants | caught | of them by time | survive |", "|---|---|---|---|---|"]
     rows = [(area, [site for site in sites if site["area"] == area]) for area in areas] + [("all", sites)]
     for area, own in rows:
@@ -264,8 +267,9 @@ def main():
     for site in sites:
         known = next((old for old in before if same(old, site) and old["kind"] == site["kind"]), None)
         if known:
-            site |= {"caught": known["caught"], "seconds": known["seconds"]}
+            site |= {key: known[key] for key in ("caught", "seconds", "again") if key in known}
         else:
+            site["again"] = options.again
             order.append(site)
     random.Random(0).shuffle(order)
     with ThreadPoolExecutor(options.jobs) as pool:
