@@ -1,27 +1,37 @@
-//! Signals that end a run: the first asks it to stop with what has converged, a second ends the program at once.
+//! Signals that end a run: the first asks it to stop with what has converged, one that comes later ends the program at once.
 
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
 
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-use signal_hook::flag;
+use signal_hook::iterator::Signals;
+use signal_hook::low_level::exit;
 
 use crate::error::Stop;
+
+/// Signals so near to the first say the same: `timeout` sends two, the kernel one per thread of a parent that dies.
+const ONE_WISH: Duration = Duration::from_millis(500);
 
 /// Passes SIGINT, SIGTERM and SIGHUP on to `stop`. One that is ignored, as by `nohup` or in the background of a script, stays
 /// so.
 pub(super) fn watch(stop: &Stop) {
     let ignored = ignored();
-    let asked = Arc::new(AtomicBool::new(false));
-    for signal in [SIGHUP, SIGINT, SIGTERM] {
-        if ignored >> (signal - 1) & 1 == 1 {
-            continue;
+    let watched = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    // signals that cannot be watched end the program as they would without
+    let Ok(mut signals) = Signals::new(watched) else { return };
+    let stop = stop.clone();
+    std::thread::spawn(move || {
+        let mut first: Option<Instant> = None;
+        for signal in signals.forever() {
+            match first {
+                None => {
+                    stop.request(u8::try_from(signal).unwrap_or(u8::MAX));
+                    first = Some(Instant::now());
+                }
+                Some(first) if first.elapsed() > ONE_WISH => exit(128 + signal),
+                Some(_) => {}
+            }
         }
-        // a signal that cannot be watched ends the program as it would without
-        let _ = flag::register_conditional_shutdown(signal, 128 + signal, asked.clone());
-        let _ = flag::register(signal, asked.clone());
-        let _ = flag::register_usize(signal, stop.number(), signal as usize);
-    }
+    });
 }
 
 /// The signals that are ignored, a bit each from the first on; none where the system does not tell.

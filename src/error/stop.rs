@@ -20,9 +20,4 @@ impl Stop {
             signal => u8::try_from(signal).ok(),
         }
     }
-
-    /// The number behind it, for a signal handler that stores its own.
-    pub fn number(&self) -> Arc<AtomicUsize> {
-        self.0.clone()
-    }
 }

@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import json
 import operator
+import os
 import re
 from collections import Counter
 from pathlib import Path
@@ -52,8 +53,10 @@ class Stored:
 
     def files(self) -> dict[tuple[str, int], Path]:
         """The files of fields by the name of a subdomain or interface, and the row."""
-        matched = ((FIELD.fullmatch(path.name), path) for path in sorted((self.folder / "fields").glob("*.vtu")))
-        return {(found[1], int(found[2])): path for found, path in matched if found}
+        folder = self.folder / "fields"
+        matched = [FIELD.fullmatch(name) for name in os.listdir(folder)] if folder.is_dir() else []
+        keys = sorted((found[1], int(found[2]), found[0]) for found in matched if found)
+        return {(name, row): folder / file for name, row, file in keys}
 
     def rows(self) -> list[int]:
         """The rows of the history of which all fields are there; those of the newest may still come."""
