@@ -170,7 +170,7 @@ fn an_increment_under_way_is_left_at_once() {
     let scene = changed(
         &slides(0.3),
         "\"traction\": [5.0, -10.0]",
-        "\"traction\": [\"2.9*load_factor\", \"-10 + 9*sin(300*load_factor)^2\"]",
+        "\"traction\": [\"2.9*load_factor\", \"-10 + 9*sin(30000*load_factor)^2\"]",
     );
     let scene = changed(&scene, "\"output\"", "\"solution\": { \"path_tolerance\": 1e-12 }, \"output\"");
     let folder = squares(&scene);
