@@ -240,6 +240,7 @@ bench-quick: $(MIDPLANE) $(VENV)  ## the same at 10 000 dofs only, in seconds
 	$(PYTHON) benches/plot.py results/bench-quick/scenes.csv -o results/bench-quick/bench.png
 	python3 benches/below.py $(MIDPLANE) --repeat 3
 	python3 benches/growth.py $(MIDPLANE) --increments 1000 --repeat 3 -o results/bench-quick/growth
+	python3 benches/walls.py $(MIDPLANE) --sizes 100 --increments 5 -o results/bench-quick/walls
 	cargo bench --locked --bench kernels -- '10000$$'
 	cargo bench --locked --bench law
 	cargo bench --locked --bench pairing
@@ -254,6 +255,11 @@ bench-peers: $(MIDPLANE)  ## the same runs beside NGSolve, scikit-fem, GetFEM, C
 
 bench-strategies: $(MIDPLANE)  ## `strategy: auto` beside all others, on the gallery and walls up to a thousand bricks, ten minutes
 	python3 benches/strategies.py $(MIDPLANE)
+
+bench-walls: $(MIDPLANE)  ## walls of 100 to 10 000 bricks, how they grow, beside scikit-fem, half an hour: results/bench/walls/
+	test -d .venv-peers || python3 -m venv .venv-peers
+	.venv-peers/bin/pip install --quiet scikit-fem pypardiso -c benches/peers/requirements.txt meshio scipy
+	python3 benches/walls.py $(MIDPLANE) --large --peer .venv-peers/bin/python
 
 bench-docs: $(VENV)  ## put the tables and the plot of results/bench/ into docs/BENCH.md
 	$(PYTHON) benches/plot.py $(BENCHED) -o docs/bench.png
@@ -345,4 +351,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all notebooks wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all notebooks bench-walls wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

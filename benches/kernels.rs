@@ -46,7 +46,7 @@ fn condense(continuum: &Continuum, constrained: &[bool]) -> Condensation {
 }
 
 fn continuum(problem: &Problem) -> Continuum {
-    Continuum::new(&problem.model, None).unwrap_or_else(|error| unreachable!("{error:?}"))
+    Continuum::new(&problem.model, &[], None).unwrap_or_else(|error| unreachable!("{error:?}"))
 }
 
 #[divan::bench(args = SIZES, sample_count = 10)]

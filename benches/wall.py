@@ -11,10 +11,26 @@ import time
 from pathlib import Path
 
 LENGTH, HEIGHT, CELLS = 0.25, 0.1, (5, 2)
+STIFFNESS = {"normal_stiffness": 1e5, "tangential_stiffness": 4e4}
+LAWS = {
+    "friction": {"type": "coulomb", **STIFFNESS, "friction_coefficient": 0.6},
+    "cracking": {
+        "type": "cracking",
+        **STIFFNESS,
+        "tensile_strength": 0.05,
+        "cohesion": 0.1,
+        "tan_friction": 0.6,
+        "fracture_energy_i": 1e-5,
+        "fracture_energy_iia": 1e-4,
+        "dilatancy_stress": 0,
+    },
+    "elastic": {"type": "elastic", **STIFFNESS},
+}
+PRESSURE, SHEAR = 0.2, 0.06
 
 
-def wall(rows, columns, folder):
-    """A scene of a wall in running bond; half bricks at the ends of every second row."""
+def wall(rows, columns, folder, mesh=CELLS, law="friction", increments=10, pressure=PRESSURE, shear=SHEAR):
+    """A scene of a wall in running bond; half bricks at the ends of every second row. `mesh`: cells along and across a brick."""
     geo, bricks = ["// " + "bricks with points of their own"], []
     for row in range(rows):
         edges = [LENGTH * k for k in range(columns + 1)]
@@ -25,9 +41,9 @@ def wall(rows, columns, folder):
             corners = [(left, row), (right, row), (right, row + 1), (left, row + 1)]
             geo += [f"Point({n + i}) = {{{x}, {y * HEIGHT}, 0}};" for i, (x, y) in enumerate(corners)]
             geo += [f"Line({n + i}) = {{{n + i}, {n + (i + 1) % 4}}};" for i in range(4)]
-            cells = CELLS[0] if right - left > 0.6 * LENGTH else CELLS[0] // 2 + 1
+            cells = mesh[0] if right - left > 0.6 * LENGTH else mesh[0] // 2 + 1
             geo.append(f"Transfinite Curve {{{n}, {n + 2}}} = {cells + 1 + row % 2};")
-            geo.append(f"Transfinite Curve {{{n + 1}, {n + 3}}} = {CELLS[1] + 1};")
+            geo.append(f"Transfinite Curve {{{n + 1}, {n + 3}}} = {mesh[1] + 1};")
             s = len(bricks) + 1
             geo.append(f"Curve Loop({s}) = {{{n}:{n + 3}}}; Plane Surface({s}) = {{{s}}};")
             geo.append(f"Transfinite Surface {{{s}}}; Recombine Surface {{{s}}};")
@@ -38,24 +54,23 @@ def wall(rows, columns, folder):
                 geo.append(f'Physical Curve("top_{s}") = {{{n + 2}}};')
             bricks.append((s, row))
     (folder / "wall.geo").write_text("\n".join(geo) + "\n")
-    law = {"type": "coulomb", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "friction_coefficient": 0.6}
     tops = [s for s, row in bricks if row == rows - 1]
     scene = {
         "subdomains": {f"brick_{s}": {"geo": "wall.geo", "surface": f"brick_{s}", "material": "brick"} for s, _ in bricks},
         "plane": "strain",
         "materials": {"brick": {"young": 1e4, "poisson": 0.15, "density": 2e-3}},
-        "interfaces": {"joints": {"between": ["brick_*", "brick_*"], "law": law}},
+        "interfaces": {"joints": {"between": ["brick_*", "brick_*"], "law": LAWS[law]}},
         "steps": [
             {
                 "name": "weight",
                 "gravity": [0.0, -9.81],
                 "fix": {f"brick_{s}.foot_{s}": ["x", "y"] for s, row in bricks if row == 0},
-                "load": {f"brick_{s}.top_{s}": {"pressure": 0.2} for s in tops},
+                "load": {f"brick_{s}.top_{s}": {"pressure": pressure} for s in tops},
             },
             {
                 "name": "push",
-                "increments": 10,
-                "load": {f"brick_{s}.top_{s}": {"traction": [0.06, -0.2]} for s in tops},
+                "increments": increments,
+                "load": {f"brick_{s}.top_{s}": {"traction": [shear, -pressure]} for s in tops},
             },
         ],
         "output": {"fields": "none", "history": {"push": f"brick_{tops[0]}.top_{tops[0]}.displacement_x"}},

@@ -89,5 +89,6 @@ mod tunnel;
 mod units;
 mod varying;
 mod verify;
+mod walls;
 mod warnings;
 mod water;

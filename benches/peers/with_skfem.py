@@ -101,4 +101,5 @@ def main(problem, folder, out):
     clock.tell(peer=name, dofs=len(u), **answers)
 
 
-main(*sys.argv[1:4])
+if __name__ == "__main__":
+    main(*sys.argv[1:4])

@@ -116,6 +116,14 @@ impl InterfaceOperator {
         self.add_nodal(&self.gather(tractions), f);
     }
 
+    /// sizes += |Gᵀ Σ w Nᵀ Rᵀ t|; `force` is zero everywhere, before and after.
+    pub fn add_force_sizes(&self, tractions: &[f64], force: &mut [f64], sizes: &mut [f64]) {
+        self.add_force(tractions, force);
+        for &dof in &self.jump.columns {
+            sizes[dof] += std::mem::take(&mut force[dof]).abs();
+        }
+    }
+
     /// Thickness out of the plane [length].
     pub fn thickness(&self) -> f64 {
         self.thickness
@@ -138,6 +146,17 @@ impl InterfaceOperator {
                 }
             }
         }
+    }
+
+    /// G.
+    pub fn jump(&self) -> &Csr {
+        &self.jump
+    }
+
+    /// G with its dofs numbered anew: `places` in a list of so many.
+    pub fn numbered(&self, places: impl Fn(usize) -> usize, size: usize) -> Csr {
+        let columns = self.jump.columns.iter().map(|&dof| places(dof)).collect();
+        Csr { columns, width: size, ..self.jump.clone() }
     }
 
     /// Row i of G: dofs and values.

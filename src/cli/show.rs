@@ -128,13 +128,20 @@ impl Show {
             Method::Joined => "linear, one factor",
             Method::InParts => "linear, factors of two parts side by side",
             Method::Condensed => "Newton's method on the jumps of the interfaces",
-            Method::Blocks => "Newton's method on the jumps of the interfaces, sparse by blocks",
+            Method::Blocks => {
+                "Newton's method on the nodes of interfaces, bodies condensed, sparse by bodies"
+            }
             Method::Plain => "Newton's method on all displacements",
         };
         self.line(&format!("{:<8} {:<12} {how}", "solving", totals.method.name()));
         if let Some(Operations { condensed, blocks, plain }) = totals.operations {
             let text = format!("condensed {condensed:.1e}, blocks {blocks:.1e}, plain {plain:.1e} or more");
             self.line(&format!("{:<8} {:<12} {text}", "", "operations"));
+        }
+        let bodies = problem.model.subdomains.len();
+        if let Some(distinct) = totals.distinct.filter(|distinct| *distinct < bodies) {
+            let text = format!("{bodies} of {distinct} kinds, one of each is condensed");
+            self.line(&format!("{:<8} {:<12} {text}", "", "bodies"));
         }
         self.widths = widths(problem);
         let [name, count] = self.widths;

@@ -108,6 +108,7 @@ impl<'a> History<'a> {
         let totals = Totals {
             method: equations.method,
             operations: equations.operations,
+            distinct: equations.distinct(),
             factor_entries: equations.factor_entries,
             ..Totals::default()
         };

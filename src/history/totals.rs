@@ -25,6 +25,8 @@ pub struct Totals {
     pub method: Method,
     /// Work of all forms, where there is a choice.
     pub operations: Option<Operations>,
+    /// Bodies that are like no earlier one, where every one is condensed.
+    pub distinct: Option<usize>,
     /// Entries of one factor.
     pub factor_entries: usize,
     /// Largest residual of all increments.

@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use rayon::prelude::*;
-
 use super::groups::{file, refusal};
 use crate::error::{Code, Result, Warning, name_help};
 use crate::mesh::{Group, Mesh};
@@ -45,15 +43,22 @@ pub fn subdomain_meshes(
             warnings.extend(left_out(mesh, &owner[file]));
         }
     }
-    let take = |number: usize| match cells[number] {
-        Some(kept) => files[file_of[number]].part(kept),
-        None => Ok(files[file_of[number]].clone()),
-    };
     if cells.iter().all(Option::is_none) && in_order(&files, file_of) {
         return Ok((files, warnings));
     }
-    let meshes: Vec<Result<Mesh>> = (0..cells.len()).into_par_iter().map(take).collect();
-    Ok((meshes.into_iter().collect::<Result<_>>()?, warnings))
+    let mut meshes: Vec<Option<Mesh>> = vec![None; cells.len()];
+    for (file, mesh) in files.iter().enumerate() {
+        let (numbers, kept): (Vec<usize>, Vec<&[usize]>) = (0..cells.len())
+            .filter(|&number| file_of[number] == file)
+            .filter_map(|number| Some((number, cells[number]?)))
+            .unzip();
+        for (number, part) in numbers.into_iter().zip(mesh.parts(&kept)?) {
+            meshes[number] = Some(part);
+        }
+    }
+    let whole = |number: usize| files[file_of[number]].clone();
+    let meshes = meshes.into_iter().enumerate().map(|(number, mesh)| mesh.unwrap_or_else(|| whole(number)));
+    Ok((meshes.collect(), warnings))
 }
 
 /// The cells of the physical surface that a subdomain consists of.

@@ -87,6 +87,8 @@ struct SolutionSummary {
     strategy: &'static str,
     /// Multiplications and additions of both forms, estimated; none where there is no choice.
     operations: Option<Operations>,
+    /// Bodies that are like no earlier one, up to a motion, where every one is condensed.
+    distinct_subdomains: Option<usize>,
     factor_entries: usize,
     /// Largest residual of all increments: the componentwise backward error max |r| / (|A| |u| + |f|) of a linear scene that
     /// is solved for displacements, the out-of-balance force relative to the forces in the model of any other.
@@ -209,6 +211,7 @@ pub(super) fn summary<'a>(
             factorisations: totals.factorisations,
             strategy: totals.method.name(),
             operations: totals.operations,
+            distinct_subdomains: totals.distinct,
             factor_entries: totals.factor_entries,
             residual: totals.residual,
             energy_balance: totals.energy_balance,

@@ -29,7 +29,8 @@ pub enum Strategy {
     Auto,
     /// The jump coefficients: the bodies are factored once, an iteration touches the interfaces only.
     Condensed,
-    /// The same with the rigid motions of floating bodies, in a system that is sparse by blocks: for hundreds of bodies.
+    /// On the displacements of the nodes on interfaces, every body condensed on them, in a system that is sparse by bodies: for walls
+    /// of many bricks. Where an elastic interface is stiff, on the jumps of all interfaces and the rigid motions of floating bodies.
     Blocks,
     /// All displacements: the whole matrix is factored in every iteration.
     Plain,

@@ -139,10 +139,9 @@ impl Factored for Base<'_> {
 
     fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
         self.continuum.add_absolute_product(u, scale);
+        let mut force = vec![0.0; u.len()];
         for (interface, stiffness) in self.interfaces.iter().zip(self.stiffness) {
-            let mut force = vec![0.0; u.len()];
-            interface.add_force(&tractions(interface, stiffness, u), &mut force);
-            scale.iter_mut().zip(force).for_each(|(scale, force)| *scale += force.abs());
+            interface.add_force_sizes(&tractions(interface, stiffness, u), &mut force, scale);
         }
     }
 

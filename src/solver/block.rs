@@ -15,6 +15,8 @@ use crate::assembly::InterfaceOperator;
 /// Contribution of one body to the interfaces.
 #[derive(Debug)]
 pub(super) struct SubdomainBlock {
+    /// Its interfaces.
+    pub(super) interfaces: Vec<usize>,
     /// Unknowns of the jumps that it takes part in.
     pub(super) touched: Vec<usize>,
     /// G F̂ Gᵀ on these.
@@ -27,31 +29,27 @@ pub(super) struct SubdomainBlock {
 }
 
 impl SubdomainBlock {
-    /// The contribution of body `b`. `first`: first unknown of every interface; `start`: the body's first rigid motion among the unknowns, and
+    /// The contribution of body `b`. `first`, `of`: first unknown of every interface, and the interfaces of the body; `start`: the body's first rigid motion among the unknowns, and
     /// how many there could be.
     pub(super) fn new(
         subdomains: &FloatingModes,
         interfaces: &[InterfaceOperator],
-        first: &[usize],
+        (first, of): (&[usize], &[usize]),
         b: usize,
         start: (usize, usize),
     ) -> SubdomainBlock {
         let continuum = subdomains.continuum;
         let (dofs, separator) = (continuum.dofs_of(b), continuum.separator_of(b));
-        let mine = |interface: &&(usize, &InterfaceOperator)| {
-            (0..interface.1.size()).any(|i| interface.1.row(i).0.iter().any(|dof| dofs.contains(dof)))
-        };
-        let all: Vec<(usize, &InterfaceOperator)> = interfaces.iter().enumerate().collect();
         let (mut touched, mut rows) = (Vec::new(), Vec::new());
-        for &(k, interface) in all.iter().filter(mine) {
+        for &k in of {
             touched.extend(first[k]..first[k + 1]);
-            rows.extend((0..interface.size()).map(|i| interface.row(i)));
+            rows.extend((0..interfaces[k].size()).map(|i| interfaces[k].row(i)));
         }
         let rigid_modes = &subdomains.rigid_modes[b];
         let mut x = Mat::zeros(separator.len(), touched.len());
         let mut moved = Mat::zeros(touched.len(), rigid_modes.len());
-        for (column, (of, values)) in rows.iter().enumerate() {
-            for (&dof, &value) in of.iter().zip(*values).filter(|(dof, _)| dofs.contains(dof)) {
+        for (column, (on, values)) in rows.iter().enumerate() {
+            for (&dof, &value) in on.iter().zip(*values).filter(|(dof, _)| dofs.contains(dof)) {
                 if let Some(place) = continuum.places[dof].filter(|_| !subdomains.constrained[dof]) {
                     x[(place as usize - separator.start, column)] = value;
                 }
@@ -63,6 +61,6 @@ impl SubdomainBlock {
         solve_lower_triangular_in_place(subdomains.factors[b].as_ref(), x.as_mut(), Par::Seq);
         let mut flexibility = Mat::zeros(touched.len(), touched.len());
         matmul(flexibility.as_mut(), Accum::Replace, x.transpose(), x.as_ref(), 1.0, Par::Seq);
-        SubdomainBlock { touched, flexibility, moved, first: start.0, most: start.1 }
+        SubdomainBlock { interfaces: of.to_vec(), touched, flexibility, moved, first: start.0, most: start.1 }
     }
 }

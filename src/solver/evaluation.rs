@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::iterate::{Iterate, Unconverged};
 use super::press::subtract;
 use super::{Form, Pressures, Respond};
+use crate::assembly::InterfaceOperator;
 
 /// A law point is asked by itself; fewer than this many are not worth a thread.
 const CHUNK: usize = 32;
@@ -83,30 +84,19 @@ fn answers<L: Respond>(
     x: &[f64],
     by_load_factor: bool,
 ) -> Result<Answers<L::Memory>, Unconverged> {
+    let coefficients = form.coefficients(x);
+    // many interfaces have few points, others many
+    let asked: Vec<_> = (form.active().par_iter().zip(&coefficients))
+        .map(|(&k, coefficients)| of_interface(&form.interfaces()[k], laws, k, coefficients))
+        .collect();
     let (mut all_jumps, mut tractions, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
     let mut memory = Vec::new();
-    for (&k, coefficients) in form.active().iter().zip(form.coefficients(x)) {
-        let interface = &form.interfaces()[k];
-        let c = interface.coupling.components;
-        let jumps = interface.jumps_of(&coefficients);
-        let (mut t, mut d) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
-        let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
-            .zip(t.par_chunks_exact_mut(c))
-            .zip(d.par_chunks_exact_mut(c * c))
-            .enumerate()
-            .with_min_len(CHUNK)
-            .map(|(p, ((jump, t), d))| {
-                laws.respond(k, p, jump, t, d).map_err(|reason| Unconverged {
-                    reason,
-                    worst: vec![(k, p)],
-                    iterations: 0,
-                })
-            })
-            .collect();
-        memory.push(answers?);
+    for asked in asked {
+        let OfInterface { jumps, tractions: t, stiffness: d, memory: m } = asked?;
         all_jumps.push(jumps);
         tractions.push(t);
         stiffness.push(d);
+        memory.push(m);
     }
     let pressures = laws.pressures(form.active(), &all_jumps, &mut memory, by_load_factor);
     let pressures = pressures.map_err(|reason| Unconverged { reason, worst: Vec::new(), iterations: 0 })?;
@@ -114,9 +104,42 @@ fn answers<L: Respond>(
         let components = form.active().first().map_or(0, |&k| form.interfaces()[k].coupling.components);
         subtract(pressures, components, &mut tractions, &mut stiffness);
     }
-    let gathered = form.active().iter().zip(&tractions).map(|(&k, t)| form.interfaces()[k].gather(t));
-    let forces = gathered.collect();
+    let active = form.active().par_iter().zip(&tractions);
+    let forces = active.map(|(&k, t)| form.interfaces()[k].gather(t)).collect();
     Ok(Answers { jumps: all_jumps, tractions, stiffness, forces, memory, pressures })
+}
+
+/// The answers at the law points of one interface.
+struct OfInterface<M> {
+    jumps: Vec<f64>,
+    tractions: Vec<f64>,
+    stiffness: Vec<f64>,
+    memory: Vec<M>,
+}
+
+fn of_interface<L: Respond>(
+    interface: &InterfaceOperator,
+    laws: &L,
+    k: usize,
+    coefficients: &[f64],
+) -> Result<OfInterface<L::Memory>, Unconverged> {
+    let c = interface.coupling.components;
+    let jumps = interface.jumps_of(coefficients);
+    let (mut tractions, mut stiffness) = (vec![0.0; jumps.len()], vec![0.0; c * jumps.len()]);
+    let answers: Result<Vec<L::Memory>, Unconverged> = (jumps.par_chunks_exact(c))
+        .zip(tractions.par_chunks_exact_mut(c))
+        .zip(stiffness.par_chunks_exact_mut(c * c))
+        .enumerate()
+        .with_min_len(CHUNK)
+        .map(|(p, ((jump, t), d))| {
+            laws.respond(k, p, jump, t, d).map_err(|reason| Unconverged {
+                reason,
+                worst: vec![(k, p)],
+                iterations: 0,
+            })
+        })
+        .collect();
+    Ok(OfInterface { jumps, tractions, stiffness, memory: answers? })
 }
 
 /// Names the law points with the largest misfit.

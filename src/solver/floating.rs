@@ -16,15 +16,16 @@
 use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Par};
+use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
 
 use super::block::SubdomainBlock;
 use super::dense::column_mut;
+use super::fronts::{FrontWork, Fronts};
 use super::lu::SparseLu;
 use super::modes::FloatingModes;
+use super::numbering::{Numbering, layout};
 use super::refine::Factored;
-use super::rigid_modes::most;
 use super::{Condensation, Continuum, ForceScale, Form, NodalSolution, NotPositiveDefinite};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 use crate::sparse::Csr;
@@ -47,6 +48,8 @@ pub struct FloatingSubdomains<'a> {
     blocks: Vec<SubdomainBlock>,
     unknowns: usize,
     lu: SparseLu,
+    /// Values of the tangents that are factored.
+    factored: Vec<Vec<f64>>,
     force_scale: ForceScale,
 }
 
@@ -60,15 +63,8 @@ impl<'a> FloatingSubdomains<'a> {
         constrained: &[bool],
     ) -> Result<FloatingSubdomains<'a>, NotPositiveDefinite> {
         let subdomains = FloatingModes::new(continuum, condensation, constrained)?;
-        let mut first = vec![0];
-        interfaces.iter().for_each(|interface| first.push(first[first.len() - 1] + interface.size()));
-        let mut unknowns = first[interfaces.len()];
-        let mut starts = Vec::new();
-        for b in 0..continuum.subdomains() {
-            starts.push((unknowns, most(continuum.components(), continuum.pieces_of(b))));
-            unknowns += starts[b].1;
-        }
-        let block = |b: usize| SubdomainBlock::new(&subdomains, interfaces, &first, b, starts[b]);
+        let Numbering { first, of, starts, unknowns } = Numbering::new(continuum, interfaces);
+        let block = |b: usize| SubdomainBlock::new(&subdomains, interfaces, (&first, &of[b]), b, starts[b]);
         let blocks = (0..continuum.subdomains()).into_par_iter().map(block).collect();
         let base_spring = |(interface, stiffness): (&InterfaceOperator, &Vec<f64>)| {
             let mut tangent = InterfaceTangent::new(interface);
@@ -86,15 +82,19 @@ impl<'a> FloatingSubdomains<'a> {
             blocks,
             unknowns,
             lu: SparseLu::default(),
+            factored: Vec::new(),
             force_scale: ForceScale::default(),
         })
     }
 
     /// Number of unknowns for a continuum: jump coefficients and rigid motions.
     pub fn unknowns(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> usize {
-        let rigid_modes: usize =
-            (0..continuum.subdomains()).map(|b| most(continuum.components(), continuum.pieces_of(b))).sum();
-        interfaces.iter().map(InterfaceOperator::size).sum::<usize>() + rigid_modes
+        Numbering::new(continuum, interfaces).unknowns
+    }
+
+    /// What a factorisation takes.
+    pub fn work(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> FrontWork {
+        Fronts::new(&layout(continuum, interfaces)).work()
     }
 
     fn part<'b>(&self, k: usize, x: &'b [f64]) -> &'b [f64] {
@@ -105,47 +105,25 @@ impl<'a> FloatingSubdomains<'a> {
         self.interfaces.iter().flat_map(|interface| interface.coefficients(u)).collect()
     }
 
-    /// Places of the Jacobian's entries, in the order of `entries`.
-    fn places(&self) -> Vec<(usize, usize)> {
-        let mut places = Vec::new();
-        for block in &self.blocks {
-            let rigid_modes = block.moved.ncols();
-            for &j in &block.touched {
-                places.extend(block.touched.iter().map(|&row| (row, j)));
-                places.extend((0..rigid_modes).map(|k| (block.first + k, j)));
-                places.extend((0..rigid_modes).map(|k| (j, block.first + k)));
+    /// The part of a body in the Jacobian.
+    fn element(&self, block: &SubdomainBlock, columns: &[Csr]) -> Mat<f64> {
+        let (m, rigid_modes) = (block.touched.len(), block.moved.ncols());
+        let mut element = Mat::zeros(m + block.most, m + block.most);
+        for (at, &j) in block.touched.iter().enumerate() {
+            let k = self.first.partition_point(|&first| first <= j) - 1;
+            let column = element.col_as_slice_mut(at);
+            // all unknowns of an interface that a body touches stand one after the other
+            let (rows, stiffness) = columns[k].row(j - self.first[k]);
+            for (&row, &value) in rows.iter().zip(stiffness).filter(|(_, value)| **value != 0.0) {
+                let from = at + row + self.first[k] - j;
+                let flexibility = block.flexibility.col_as_slice(from);
+                column.iter_mut().zip(flexibility).for_each(|(entry, f)| *entry += value * f);
+                (0..rigid_modes).for_each(|i| column[m + i] += value * block.moved[(from, i)]);
             }
-            places.extend((rigid_modes..block.most).map(|k| (block.first + k, block.first + k)));
+            (0..rigid_modes).for_each(|i| element[(at, m + i)] = -block.moved[(at, i)]);
         }
-        places.extend((0..self.first[self.interfaces.len()]).map(|k| (k, k)));
-        places
-    }
-
-    fn entries(&self, tangents: &[InterfaceTangent]) -> Vec<f64> {
-        let columns: Vec<Csr> = tangents.iter().map(|tangent| tangent.matrix.transposed()).collect();
-        let of_block = |block: &SubdomainBlock| {
-            let (m, rigid_modes) = (block.touched.len(), block.moved.ncols());
-            let mut values = Vec::with_capacity(m * (m + 2 * rigid_modes) + block.most);
-            let mut column = vec![0.0; m + rigid_modes];
-            for (at, &j) in block.touched.iter().enumerate() {
-                column.fill(0.0);
-                let k = self.first.partition_point(|&first| first <= j) - 1;
-                // all unknowns of an interface that a body touches stand one after the other
-                let (rows, stiffness) = columns[k].row(j - self.first[k]);
-                for (&row, &value) in rows.iter().zip(stiffness).filter(|(_, value)| **value != 0.0) {
-                    let from = at + row + self.first[k] - j;
-                    (0..m).for_each(|i| column[i] += value * block.flexibility[(i, from)]);
-                    (0..rigid_modes).for_each(|i| column[m + i] += value * block.moved[(from, i)]);
-                }
-                values.extend_from_slice(&column);
-                values.extend((0..rigid_modes).map(|i| -block.moved[(at, i)]));
-            }
-            values.extend((rigid_modes..block.most).map(|_| 1.0));
-            values
-        };
-        let mut values: Vec<f64> = self.blocks.par_iter().flat_map_iter(of_block).collect();
-        values.extend((0..self.first[self.interfaces.len()]).map(|_| 1.0));
-        values
+        (rigid_modes..block.most).for_each(|i| element[(m + i, m + i)] = 1.0);
+        element
     }
 }
 
@@ -253,11 +231,22 @@ impl Form for FloatingSubdomains<'_> {
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
         if !self.lu.is_planned() {
-            let places = self.places();
-            self.lu.plan(self.unknowns, places.into_iter());
+            let layout = layout(self.subdomains.continuum, self.interfaces);
+            let jumps = layout.entries.len();
+            self.lu.plan(layout, vec![1.0; jumps]);
         }
-        let values = self.entries(tangents);
-        self.lu.factor(&values)
+        let values: Vec<Vec<f64>> = tangents.iter().map(|tangent| tangent.matrix.values.clone()).collect();
+        let changed: Vec<bool> =
+            (0..values.len()).map(|k| self.factored.get(k) != Some(&values[k])).collect();
+        let columns: Vec<Csr> = tangents.par_iter().map(|tangent| tangent.matrix.transposed()).collect();
+        let first = self.factored.is_empty();
+        let renew = |block: &SubdomainBlock| {
+            let renewed = first || block.interfaces.iter().any(|&k| changed[k]);
+            renewed.then(|| Arc::new(self.element(block, &columns)))
+        };
+        let elements = self.blocks.par_iter().map(renew).collect();
+        self.factored = values;
+        self.lu.factor(elements)
     }
 
     fn solve(&self, b: &mut [f64]) {

@@ -89,7 +89,7 @@ impl ForceScale {
 }
 
 /// One way to write the equilibrium.
-pub trait Form {
+pub trait Form: Sync {
     /// All interfaces.
     fn interfaces(&self) -> &[InterfaceOperator];
     /// Numbers of the interfaces whose laws respond.

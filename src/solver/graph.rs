@@ -40,6 +40,37 @@ impl Graph {
         Graph { offsets, neighbours }
     }
 
+    /// From groups of nodes that are all connected, and further pairs.
+    pub(super) fn of_cliques<'a>(
+        nodes: usize,
+        cliques: impl Iterator<Item = &'a [u32]> + Clone,
+        pairs: impl Iterator<Item = (u32, u32)> + Clone,
+    ) -> Graph {
+        let mut beside: Vec<Vec<u32>> = vec![Vec::new(); nodes];
+        for clique in cliques {
+            for &node in clique {
+                beside[node as usize].extend(clique.iter().filter(|&&other| other != node));
+            }
+        }
+        for (a, b) in pairs.filter(|(a, b)| a != b) {
+            beside[a as usize].push(b);
+            beside[b as usize].push(a);
+        }
+        let (mut offsets, mut neighbours) = (vec![0], Vec::new());
+        for mut of in beside {
+            of.sort_unstable();
+            of.dedup();
+            neighbours.extend(of);
+            offsets.push(neighbours.len());
+        }
+        Graph { offsets, neighbours }
+    }
+
+    /// Number of nodes.
+    pub(super) fn nodes(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
     /// Neighbours of a node.
     pub(super) fn of(&self, node: u32) -> &[u32] {
         &self.neighbours[self.offsets[node as usize]..self.offsets[node as usize + 1]]

@@ -12,7 +12,7 @@ pub enum Method {
     InParts,
     /// On the jumps of the interfaces.
     Condensed,
-    /// On these and the motions of the bodies, in a system that is sparse by blocks.
+    /// On the displacements of condensed bodies, or on jumps and rigid motions, in a system that is sparse by bodies.
     Blocks,
     /// On all displacements.
     Plain,

@@ -11,6 +11,8 @@
 //! y = J⁻¹ R and z = −J⁻¹ ∂R/∂λ. The line search halves a step until the residual decreases: where points open, stick and slide by
 //! turns, full steps run in circles.
 
+use rayon::prelude::*;
+
 use super::aim::Aim;
 use super::apart::{FREE, LOOSE, intact, moved_apart, opens_freely};
 use super::evaluation::{Evaluation, evaluate, evaluate_at, unconverged};
@@ -219,26 +221,27 @@ impl Newton {
         let beyond = if settings.initial_tangent { None } else { beyond(form, now.pressures.as_ref()) };
         form.couple(beyond);
         let form = &*form;
-        for ((tangent, &k), stiffness) in self.tangents.iter_mut().zip(form.active()).zip(&now.stiffness) {
+        let fill = |((tangent, &k), stiffness): ((&mut InterfaceTangent, &usize), &Vec<f64>)| {
             let interface = &form.interfaces()[k];
+            let intact = intact(form, laws, k);
             if settings.initial_tangent {
-                tangent.fill(interface, &intact(form, laws, k));
-            } else {
-                let mut stiffness = stiffness.clone();
-                let c = interface.coupling.components;
-                let intact = intact(form, laws, k);
-                let normal = if opens_freely(&stiffness, &intact, c) { LOOSE } else { FREE };
-                for (d, intact) in stiffness.chunks_exact_mut(c * c).zip(intact.chunks_exact(c * c)) {
-                    for i in (0..c * c).step_by(c + 1) {
-                        let least = if i == 0 { normal } else { FREE } * intact[i];
-                        if d[i].abs() < least {
-                            d[i] = least;
-                        }
+                tangent.fill(interface, &intact);
+                return;
+            }
+            let mut stiffness = stiffness.clone();
+            let c = interface.coupling.components;
+            let normal = if opens_freely(&stiffness, &intact, c) { LOOSE } else { FREE };
+            for (d, intact) in stiffness.chunks_exact_mut(c * c).zip(intact.chunks_exact(c * c)) {
+                for i in (0..c * c).step_by(c + 1) {
+                    let least = if i == 0 { normal } else { FREE } * intact[i];
+                    if d[i].abs() < least {
+                        d[i] = least;
                     }
                 }
-                tangent.fill(interface, &stiffness);
             }
-        }
+            tangent.fill(interface, &stiffness);
+        };
+        self.tangents.par_iter_mut().zip(form.active()).zip(&now.stiffness).for_each(fill);
     }
 }
 

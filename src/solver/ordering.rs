@@ -37,8 +37,18 @@ pub struct Order {
 
 /// Orders the dofs of a pattern. `coordinates` are those of its nodes, one node after the other.
 pub fn nested_dissection(pattern: &Pattern, coordinates: &[f64]) -> Order {
-    let graph = Graph::new(pattern);
-    let n = pattern.nodes();
+    let order = dissected(&Graph::new(pattern), coordinates, &vec![1; pattern.nodes()]);
+    let components = pattern.components() as u32;
+    let dofs = |node: u32| components * node..components * (node + 1);
+    let forward: Vec<u32> = order.into_iter().flat_map(dofs).collect();
+    let inverse = inverse(&forward);
+    Order { forward, inverse }
+}
+
+/// Orders the nodes of a graph, every subtree of the elimination tree together. `coordinates`: one node after the other;
+/// `weights`: unknowns of every node.
+pub(super) fn dissected(graph: &Graph, coordinates: &[f64], weights: &[u32]) -> Vec<u32> {
+    let n = graph.nodes();
     let dimensions = coordinates.len() / n.max(1);
     let ranks: Vec<Vec<u32>> = (0..dimensions)
         .into_par_iter()
@@ -51,19 +61,16 @@ pub fn nested_dissection(pattern: &Pattern, coordinates: &[f64]) -> Order {
         .collect();
     let mut order: Vec<u32> = (0..n as u32).collect();
     let place = (0..n).map(|_| AtomicU32::new(0)).collect();
-    Dissection { graph: &graph, ranks: &ranks, place }.cut(&mut order, 0);
-    let post = postorder(&elimination_tree(&graph, &order));
-    let components = pattern.components() as u32;
-    let dofs = |node: u32| components * node..components * (node + 1);
-    let forward: Vec<u32> = post.iter().flat_map(|&new| dofs(order[new as usize])).collect();
-    let inverse = inverse(&forward);
-    Order { forward, inverse }
+    Dissection { graph, ranks: &ranks, weights, place }.cut(&mut order, 0);
+    let post = postorder(&elimination_tree(graph, &order));
+    post.iter().map(|&new| order[new as usize]).collect()
 }
 
 struct Dissection<'a> {
     graph: &'a Graph,
     /// Place of every node in the whole model sorted along each direction.
     ranks: &'a [Vec<u32>],
+    weights: &'a [u32],
     /// Place of every node in the set at hand, `NONE` in a separator. Read and written by whoever cuts that set.
     place: Vec<AtomicU32>,
 }
@@ -71,9 +78,9 @@ struct Dissection<'a> {
 /// A cut of a sorted set: the nodes before `at`, the others, and which of them touch the other part.
 #[derive(Clone, Copy)]
 struct Bisection {
-    /// Size of the separator.
+    /// Unknowns of the separator.
     size: usize,
-    /// Size of the separator over the product of the sizes of both parts.
+    /// Unknowns of the separator over the product of those of both parts.
     ratio: f64,
     axis: usize,
     at: usize,
@@ -88,10 +95,11 @@ impl Dissection<'_> {
             return;
         }
         let mut sorted = first_axis;
+        let all: usize = nodes.iter().map(|&node| self.weights[node as usize] as usize).sum();
         self.sort(nodes, sorted);
         let mut cut = self.best(nodes, sorted);
         for axis in (0..self.ranks.len()).filter(|&axis| axis != first_axis) {
-            if cut.size * cut.size <= COMPACT * nodes.len() {
+            if cut.size * cut.size <= COMPACT * all {
                 break;
             }
             self.sort(nodes, axis);
@@ -189,26 +197,32 @@ impl Dissection<'_> {
         let mut changes = vec![[0_i32; 2]; nodes.len() + 1];
         for (i, &node) in nodes.iter().enumerate() {
             let (low, high) = self.places(node).fold((i, i), |(low, high), j| (low.min(j), high.max(j)));
-            changes[i + 1][0] += i32::from(high > i);
-            changes[i + 1][1] -= i32::from(low < i);
+            let weight = self.weights[node as usize] as i32;
             if high > i {
-                changes[(high + 1).min(nodes.len())][0] -= 1;
+                changes[i + 1][0] += weight;
+                changes[(high + 1).min(nodes.len())][0] -= weight;
             }
-            changes[low + 1][1] += i32::from(low < i);
+            if low < i {
+                changes[low + 1][1] += weight;
+                changes[i + 1][1] -= weight;
+            }
         }
         let mut best = Bisection { size: 0, ratio: f64::INFINITY, axis, at: nodes.len() / 2, before: true };
         let mut sizes = [0_i32; 2];
         let least = nodes.len().div_ceil(LEAST);
+        let weight = |node: &u32| f64::from(self.weights[*node as usize]);
+        let (mut first, mut second) = (0.0, nodes.iter().map(weight).sum::<f64>());
         for at in 1..nodes.len() {
+            first += weight(&nodes[at - 1]);
+            second -= weight(&nodes[at - 1]);
             for k in 0..2 {
                 sizes[k] += changes[at][k];
             }
             if at < least || at > nodes.len() - least {
                 continue;
             }
-            let product = at as f64 * (nodes.len() - at) as f64;
             let size = sizes[0].min(sizes[1]) as usize;
-            let ratio = (size as f64).max(0.5) / product; // without separator the middle is best
+            let ratio = (size as f64).max(0.5) / (first * second); // without separator the middle is best
             if ratio < best.ratio {
                 best = Bisection { size, ratio, axis, at, before: sizes[0] < sizes[1] };
             }

@@ -7,8 +7,14 @@
 //! The independent check of the condensed form, and the way for interfaces whose dense flexibility would not fit. Its accuracy
 //! ends at ε K_N h/E, because u_B − u_A is taken before it is multiplied by K_N.
 
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::fronts::{FrontWork, Fronts, Layout};
 use super::linear::tractions;
 use super::lu::SparseLu;
+use super::springs::SpringElement;
 use super::{ForceScale, Form, NodalSolution};
 use crate::assembly::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 
@@ -20,15 +26,22 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 pub struct Primal<'a> {
     interfaces: &'a [InterfaceOperator],
     active: Vec<usize>,
+    /// True for these.
+    responds: Vec<bool>,
     /// Law stiffness of the other interfaces.
     stiffness: &'a [Vec<f64>],
     pattern: &'a Pattern,
     continuum: &'a Symmetric,
+    /// Coordinates of all nodes, one after the other.
+    coordinates: Vec<f64>,
     constrained: Vec<bool>,
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
     force_scale: ForceScale,
+    springs: Vec<SpringElement>,
     lu: SparseLu,
+    /// Values of the tangents that are factored.
+    factored: Vec<Vec<f64>>,
 }
 
 impl<'a> Primal<'a> {
@@ -37,28 +50,69 @@ impl<'a> Primal<'a> {
         interfaces: &'a [InterfaceOperator],
         active: &[usize],
         stiffness: &'a [Vec<f64>],
-        pattern: &'a Pattern,
+        (pattern, coordinates): (&'a Pattern, Vec<f64>),
         continuum: &'a Symmetric,
         constrained: &[bool],
     ) -> Primal<'a> {
         let diagonal = |j: usize| continuum.values[pattern.column(j).start];
         let scale = (0..pattern.size()).map(diagonal).fold(0.0, f64::max);
         let (active, constrained) = (active.to_vec(), constrained.to_vec());
+        let mut responds = vec![false; interfaces.len()];
+        active.iter().for_each(|&k| responds[k] = true);
+        let springs = interfaces.par_iter().map(|interface| SpringElement::new(interface.jump())).collect();
         Primal {
             interfaces,
             active,
+            responds,
             stiffness,
             pattern,
             continuum,
+            coordinates,
             constrained,
             scale,
+            springs,
             lu: SparseLu::default(),
+            factored: Vec::new(),
             force_scale: ForceScale::default(),
         }
     }
 
+    /// What a factorisation takes.
+    pub fn work(pattern: &Pattern, coordinates: Vec<f64>, interfaces: &[InterfaceOperator]) -> FrontWork {
+        let springs = interfaces.par_iter().map(|interface| SpringElement::new(interface.jump()).unknowns);
+        let pairs = |j: usize| pattern.rows[pattern.column(j)].iter().map(move |&i| (i, j as u32));
+        let entries = (0..pattern.size()).flat_map(pairs).collect();
+        Fronts::new(&layout(pattern, coordinates, (springs.collect(), entries))).work()
+    }
+
     fn passive(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.interfaces.len()).filter(|k| !self.active.contains(k))
+        (0..self.interfaces.len()).filter(|&k| !self.responds[k])
+    }
+
+    /// Places and values of the bodies' entries, and of the equations of held dofs.
+    fn entries(&self) -> (Vec<(u32, u32)>, Vec<f64>) {
+        let n = self.pattern.size();
+        let (mut entries, mut values) = (Vec::new(), Vec::new());
+        let mut entry = |i: usize, j: usize, value: f64| {
+            if !self.constrained[i] {
+                entries.push((i as u32, j as u32));
+                values.push(value);
+            }
+        };
+        for j in 0..n {
+            let range = self.pattern.column(j);
+            for (&i, &value) in self.pattern.rows[range.clone()].iter().zip(&self.continuum.values[range]) {
+                entry(i as usize, j, value);
+                if i as usize != j {
+                    entry(j, i as usize, value);
+                }
+            }
+        }
+        for i in (0..n).filter(|&i| self.constrained[i]) {
+            entries.push((i as u32, i as u32));
+            values.push(self.scale);
+        }
+        (entries, values)
     }
 
     /// K u + Gᵀ q of all interfaces.
@@ -72,6 +126,17 @@ impl<'a> Primal<'a> {
         }
         internal
     }
+}
+
+/// Where the Jacobian has its entries: an element of every interface, and the bodies' as they are.
+fn layout(
+    pattern: &Pattern,
+    coordinates: Vec<f64>,
+    (elements, entries): (Vec<Vec<u32>>, Vec<(u32, u32)>),
+) -> Layout {
+    let (n, c) = (pattern.size(), pattern.components());
+    let node_of = (0..n).map(|dof| (dof / c) as u32).collect();
+    Layout { node_of, coordinates, nodes: n / c, elements, entries }
 }
 
 impl Form for Primal<'_> {
@@ -145,44 +210,34 @@ impl Form for Primal<'_> {
     }
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
-        let n = self.pattern.size();
-        let (mut places, mut values) = (Vec::new(), Vec::new());
-        let planned = self.lu.is_planned();
-        let mut entry = |i: usize, j: usize, value: f64| {
-            if !self.constrained[i] {
-                values.push(value);
-                if !planned {
-                    places.push((i, j));
-                }
-            }
+        let mut elements = vec![None; self.springs.len()];
+        let element = |k: usize, tangent: &InterfaceTangent| {
+            Arc::new(self.springs[k].element(&tangent.matrix, |dof| self.constrained[dof]))
         };
-        for j in 0..n {
-            let range = self.pattern.column(j);
-            for (&i, &value) in self.pattern.rows[range.clone()].iter().zip(&self.continuum.values[range]) {
-                entry(i as usize, j, value);
-                if i as usize != j {
-                    entry(j, i as usize, value);
-                }
+        let first = !self.lu.is_planned();
+        if first {
+            for k in self.passive() {
+                let mut tangent = InterfaceTangent::new(&self.interfaces[k]);
+                tangent.fill(&self.interfaces[k], &self.stiffness[k]);
+                elements[k] = Some(element(k, &tangent));
             }
+            self.factored = vec![Vec::new(); tangents.len()];
         }
-        for (&k, tangent) in self.active.iter().zip(tangents) {
-            self.interfaces[k].visit_stiffness(&tangent.matrix, &mut entry);
+        let changed = tangents.par_iter().zip(&mut self.factored).zip(&self.active);
+        let renew = |((tangent, factored), &k): ((&InterfaceTangent, &mut Vec<f64>), &usize)| {
+            (*factored != tangent.matrix.values).then(|| {
+                factored.clone_from(&tangent.matrix.values);
+                (k, element(k, tangent))
+            })
+        };
+        let renewed: Vec<_> = changed.filter_map(renew).collect();
+        renewed.into_iter().for_each(|(k, element)| elements[k] = Some(element));
+        if first {
+            let (entries, values) = self.entries();
+            let springs = self.springs.iter().map(|springs| springs.unknowns.clone()).collect();
+            self.lu.plan(layout(self.pattern, self.coordinates.clone(), (springs, entries)), values);
         }
-        for k in self.passive() {
-            let mut tangent = InterfaceTangent::new(&self.interfaces[k]);
-            tangent.fill(&self.interfaces[k], &self.stiffness[k]);
-            self.interfaces[k].visit_stiffness(&tangent.matrix, &mut entry);
-        }
-        for i in (0..n).filter(|&i| self.constrained[i]) {
-            values.push(self.scale);
-            if !planned {
-                places.push((i, i));
-            }
-        }
-        if !planned {
-            self.lu.plan(n, places.into_iter());
-        }
-        self.lu.factor(&values)
+        self.lu.factor(elements)
     }
 
     fn solve(&self, b: &mut [f64]) {

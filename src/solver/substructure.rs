@@ -33,7 +33,7 @@ pub struct CondensedSubdomain {
     /// Values of L.
     pub(super) values: Vec<Vec<f64>>,
     /// Lower triangle of S.
-    pub(super) schur: Mat<f64>,
+    pub(super) schur: Arc<Mat<f64>>,
 }
 
 impl Substructure {
@@ -57,7 +57,7 @@ impl Substructure {
         let mut matrix = self.stiffness.clone();
         matrix.hold(&self.pattern, &constrained);
         let (values, schur) = self.parts.eliminate(&matrix, true)?;
-        Ok(CondensedSubdomain { constrained, values, schur })
+        Ok(CondensedSubdomain { constrained, values, schur: Arc::new(schur) })
     }
 
     /// A condensation that was kept for these supports.

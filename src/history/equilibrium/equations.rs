@@ -5,9 +5,9 @@
 use std::sync::Arc;
 
 use super::Engine;
-use super::forms::{bases, blocks, condensed, plain};
+use super::forms::{bases, blocks, condensed, joined, plain};
 use super::linear::LinearEngine;
-use super::strategy::{Operations, choose, condensed_interfaces};
+use super::strategy::{Operations, choose, condensed_interfaces, is_joined, plain_work};
 use crate::assembly::{Pattern, Symmetric};
 use crate::error::{Result, Stop};
 use crate::history::{Clock, memory};
@@ -120,7 +120,9 @@ impl<'a> Equations<'a> {
         }
         let mut operations = None;
         if strategy != Strategy::Plain {
-            let continuum = Continuum::new(model, cache).map_err(too_large)?;
+            let held = |dof: usize| problem.steps.iter().any(|step| step.constrained[dof]);
+            let held: Vec<bool> = (0..dofs).map(held).collect();
+            let continuum = Continuum::new(model, &held, cache).map_err(too_large)?;
             let (method, estimate) = choose(problem, &continuum, &condensed_interfaces, (available, before))?;
             operations = Some(estimate).filter(|_| !linear);
             let factor_entries = continuum.entries();
@@ -148,8 +150,10 @@ impl<'a> Equations<'a> {
         }
         let pattern = model.continuum_pattern();
         let continuum = model.continuum(&pattern);
-        let plan = order(problem, &pattern, available, clock)?;
-        let (method, factor_entries) = (Method::Plain, plan.entries());
+        clock.begin("order");
+        let (method, factor_entries) = (Method::Plain, plain_work(problem, &pattern).entries);
+        let needed = memory::needed(size_of::<f64>() * factor_entries, pattern.rows.len(), dofs);
+        memory::check_fits(dofs, factor_entries, needed, available)?;
         let matrices = Matrices::Apart(pattern, continuum);
         Ok(Equations {
             problem,
@@ -174,6 +178,9 @@ impl<'a> Equations<'a> {
                 let make = move |constrained: &[bool]| Ok((Linear::new(system, plan, constrained)?, true));
                 Box::new(LinearEngine::new(interfaces, Box::new(make)))
             }
+            Matrices::Condensed(continuum) if self.method == Method::Blocks && is_joined(problem) => {
+                Box::new(joined(problem, continuum, settings))
+            }
             Matrices::Condensed(continuum) if self.method == Method::Blocks => {
                 Box::new(blocks(problem, continuum, stiffness, settings))
             }
@@ -186,6 +193,14 @@ impl<'a> Equations<'a> {
             Matrices::Apart(pattern, continuum) => {
                 Box::new(plain(problem, pattern, continuum, condensed_interfaces, stiffness, settings))
             }
+        }
+    }
+
+    /// Bodies that are like no earlier one, where every one is condensed.
+    pub(in crate::history) fn distinct(&self) -> Option<usize> {
+        match &self.matrices {
+            Matrices::Condensed(continuum) => Some(continuum.distinct().0),
+            _ => None,
         }
     }
 

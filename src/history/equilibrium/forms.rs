@@ -6,7 +6,9 @@ use super::Make;
 use super::newton::NewtonEngine;
 use crate::assembly::{Pattern, Symmetric};
 use crate::problem::Problem;
-use crate::solver::{Base, Condensation, Condensed, Continuum, FloatingSubdomains, NewtonSettings, Primal};
+use crate::solver::{
+    Base, Condensation, Condensed, Continuum, FloatingSubdomains, JoinedSubdomains, NewtonSettings, Primal,
+};
 
 /// Makes the base system of a set of supports; one condensation serves all sets that differ on interfaces only.
 pub(super) fn bases<'a>(
@@ -72,6 +74,21 @@ pub(super) fn blocks<'a>(
     NewtonEngine::new(problem, settings, Box::new(make), FloatingSubdomains::unknowns(continuum, interfaces))
 }
 
+/// On the displacements of the bodies' nodes on interfaces.
+pub(super) fn joined<'a>(
+    problem: &'a Problem,
+    continuum: &'a Continuum,
+    settings: NewtonSettings,
+) -> NewtonEngine<'a, JoinedSubdomains<'a>> {
+    let interfaces = &problem.model.interfaces;
+    let mut condense = condensations(continuum);
+    let make = move |constrained: &[bool]| {
+        let (condensation, anew) = condense(constrained)?;
+        Ok((JoinedSubdomains::new(continuum, condensation, interfaces, constrained), anew))
+    };
+    NewtonEngine::new(problem, settings, Box::new(make), JoinedSubdomains::unknowns(continuum))
+}
+
 /// On all displacements.
 pub(super) fn plain<'a>(
     problem: &'a Problem,
@@ -83,7 +100,14 @@ pub(super) fn plain<'a>(
 ) -> NewtonEngine<'a, Primal<'a>> {
     let make = move |constrained: &[bool]| {
         Ok((
-            Primal::new(&problem.model.interfaces, condensed_interfaces, stiffness, pattern, k, constrained),
+            Primal::new(
+                &problem.model.interfaces,
+                condensed_interfaces,
+                stiffness,
+                (pattern, problem.model.coordinates()),
+                k,
+                constrained,
+            ),
             true,
         ))
     };

@@ -1,35 +1,38 @@
 //! The choice of a form: which interfaces have unknowns of their own, and which form of the equations takes less work.
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 
+use crate::assembly::Pattern;
 use crate::error::Result;
 use crate::history::memory;
-use crate::problem::Problem;
+use crate::problem::{Problem, stiffness_number};
 use crate::scene::Strategy;
-use crate::solver::{Continuum, Method, Symbolic, TooLarge};
+use crate::solver::{Continuum, FloatingSubdomains, FrontWork, JoinedSubdomains, Method, Primal};
 
-/// Iterations of an increment, for the estimate.
+/// Iterations of an increment, for the estimate, and of a whole run at least: few increments come in many parts.
 const ITERATIONS: f64 = 4.0;
+const FEWEST: f64 = 100.0;
 
-/// Work beside that of a dense factor, in its operations: measured over a dozen scenes of 80 to 35 000 dofs (benches/strategies.py).
-/// Setting up the condensed form gains from large products; of its system an iteration factors what is not intact, a third of the
-/// points where much slides.
-const SETUP: f64 = 1.0 / 3.0;
-const BY_UNKNOWN_SQUARED: f64 = 120.0;
+/// Work in operations of a dense factor that take as long, 10 ps each: measured over a dozen scenes of 80 to 260 000 dofs
+/// (benches/strategies.py). For a dof once, where bodies are condensed; for a dof and an iteration, whatever the form.
+const CONDENSED_DOF: f64 = 4.5e5;
+const DOF: f64 = 1.2e4;
+const ITERATION: f64 = 5e7;
+/// Of the condensed system an iteration factors what is not intact, a third of the points where much slides.
+const BY_UNKNOWN_SQUARED: f64 = 200.0;
 const FACTORED: f64 = 0.2;
-/// An operation of sparse factors by blocks and of sparse factors on all displacements, and what a dof and an iteration take beside
-/// them.
-const BLOCKS: [f64; 3] = [4.5, 3e3, 6e6];
-const PLAIN: [f64; 3] = [17.0, 2.5e4, 2e6];
+/// An operation of factors by fronts, a number that they hold, and what an iteration takes beside them.
+const FRONTS: [f64; 3] = [0.8, 80.0, 3e7];
+
+/// K_N h/E at which displacements of bodies have the digits of the forces between them: rounding is 1e-16 times it, or over it.
+const EVEN: std::ops::RangeInclusive<f64> = 1e-5..=1e4;
 
 /// Work that a run takes, estimated before it [multiplications and additions of a dense factor that take as long].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Operations {
     /// On the jumps of the interfaces.
     pub condensed: f64,
-    /// On these and the motions of the bodies, by blocks.
+    /// On the displacements of the nodes on interfaces, sparse by bodies.
     pub blocks: f64,
     /// On all displacements.
     pub plain: f64,
@@ -68,38 +71,43 @@ pub(in crate::history) fn choose(
     let changes = problem.steps.windows(2).filter(|pair| pair[0].constrained != pair[1].constrained).count();
     let sets = (1 + changes) as f64;
     let increments = problem.steps.iter().map(|step| step.increments).sum::<usize>() as f64;
-    let iterations = if active(problem).is_empty() { sets } else { ITERATIONS * increments };
+    let iterations = if active(problem).is_empty() { sets } else { (ITERATIONS * increments).max(FEWEST) };
     let base = separator.powi(3) / 3.0 + separator * coefficients * (separator + coefficients);
     let subdomains = |b: usize| {
         let separator = continuum.separator_of(b).len() as f64;
         2.3 * separator.powi(3) // its factor, and flexibilities of as many unknowns
     };
-    let iteration =
-        |[operation, dof, own]: [f64; 3], factor: f64| operation * factor + dof * dofs as f64 + own;
+    let fronts = |work: FrontWork| FRONTS[0] * work.operations + FRONTS[1] * work.entries as f64 + FRONTS[2];
+    let every = iterations * (DOF * dofs as f64 + ITERATION);
+    let (_, distinct) = continuum.distinct();
+    let bodies = continuum.operations() + CONDENSED_DOF * distinct as f64 + every;
+    let joined = is_joined(problem);
+    let of_blocks = match joined {
+        true => JoinedSubdomains::work(continuum, &model.interfaces),
+        false => FloatingSubdomains::work(continuum, &model.interfaces),
+    };
+    let flexibilities: f64 = if joined { 0.0 } else { (0..continuum.subdomains()).map(subdomains).sum() };
     let mut estimate = Operations {
-        condensed: SETUP * (continuum.operations() + sets * (base + 2.0 * coefficients.powi(3)))
+        condensed: bodies
+            + sets * (base + 2.0 * coefficients.powi(3))
             + iterations * (BY_UNKNOWN_SQUARED * coefficients.powi(2) + FACTORED * coefficients.powi(3)),
-        blocks: continuum.operations()
-            + sets * (0..continuum.subdomains()).map(subdomains).sum::<f64>()
-            + iterations * iteration(BLOCKS, by_blocks(problem)),
-        plain: iterations * iteration(PLAIN, continuum.operations()),
+        blocks: bodies + sets * flexibilities + iterations * fronts(of_blocks),
+        plain: every + iterations * fronts(FrontWork { operations: continuum.operations(), entries: 0 }),
     };
     if estimate.plain < estimate.blocks.min(estimate.condensed) {
         // the bodies alone are the least: interfaces couple whole sides
-        let joined =
-            Symbolic::minimum_degree(&model.pattern()).map_err(|TooLarge| memory::too_large(dofs))?;
-        estimate.plain = iterations * iteration(PLAIN, joined.operations());
+        let work = plain_work(problem, &model.continuum_pattern());
+        estimate.plain = every + iterations * fronts(work);
     }
     let dense = continuum.separator().pow(2) + 5 * (coefficients as usize).pow(2);
-    let needed = memory::needed(continuum.bytes() + size_of::<f64>() * dense, 0, dofs);
-    let fits = available.is_none_or(|available| needed <= available);
+    let needed = |numbers: usize| memory::needed(continuum.bytes() + size_of::<f64>() * numbers, 0, dofs);
+    let fits = |numbers: usize| available.is_none_or(|available| needed(numbers) <= available);
     let method = match problem.solution.strategy {
         Strategy::Auto if condensed_interfaces.is_empty() || problem.flows() => Method::Condensed,
         Strategy::Auto if before.is_some() => before.unwrap_or_default(),
         Strategy::Auto => {
-            let stiff = condensed_interfaces.iter().any(|&k| problem.interfaces[k].stiff);
-            let condensed = if fits { estimate.condensed } else { f64::INFINITY };
-            let plain = if stiff { f64::INFINITY } else { estimate.plain };
+            let condensed = if fits(dense) { estimate.condensed } else { f64::INFINITY };
+            let plain = if joined { estimate.plain } else { f64::INFINITY };
             match estimate.blocks {
                 blocks if condensed <= blocks && condensed <= plain => Method::Condensed,
                 blocks if blocks <= plain => Method::Blocks,
@@ -110,34 +118,27 @@ pub(in crate::history) fn choose(
         Strategy::Blocks => Method::Blocks,
         Strategy::Plain => Method::Plain,
     };
-    if method == Method::Condensed {
-        memory::check_fits(dofs, continuum.entries(), needed, available)?;
+    let numbers = match method {
+        Method::Condensed => dense,
+        Method::Blocks => of_blocks.entries,
+        _ => 0,
+    };
+    if method != Method::Plain {
+        memory::check_fits(dofs, continuum.entries() + numbers, needed(numbers), available)?;
     }
     Ok((method, estimate))
 }
 
-/// Work of an LU of the interfaces' unknowns, interface by interface in the order of least degree: those of one body are all connected.
-fn by_blocks(problem: &Problem) -> f64 {
-    let interfaces = &problem.model.interfaces;
-    let mut beside: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); interfaces.len()];
-    for subdomain in 0..problem.model.subdomains.len() {
-        let of: Vec<usize> =
-            (0..interfaces.len()).filter(|&k| interfaces[k].subdomains.contains(&subdomain)).collect();
-        of.iter().for_each(|&k| beside[k].extend(of.iter().filter(|&&other| other != k)));
-    }
-    let front = |set: &BTreeSet<usize>| set.iter().map(|&k| interfaces[k].size()).sum::<usize>() as f64;
-    let (mut left, mut work): (Vec<usize>, f64) = ((0..interfaces.len()).collect(), 0.0);
-    while let Some(at) = (0..left.len()).min_by(|&a, &b| {
-        front(&beside[left[a]]).total_cmp(&front(&beside[left[b]])) // ties in the order of the interfaces
-    }) {
-        let k = left.remove(at);
-        let neighbours = std::mem::take(&mut beside[k]);
-        let (own, rest) = (interfaces[k].size() as f64, front(&neighbours));
-        work += own.powi(3) * 2.0 / 3.0 + 2.0 * own * own * rest + 2.0 * own * rest * rest;
-        for &a in &neighbours {
-            beside[a].remove(&k);
-            beside[a].extend(neighbours.iter().filter(|&&b| b != a));
-        }
-    }
-    work
+/// True if displacements will do as unknowns of `blocks`: jumps of stiff interfaces cannot be their differences, and of bodies that
+/// are much stiffer than what carries them rounding leaves forces that are none.
+pub(in crate::history) fn is_joined(problem: &Problem) -> bool {
+    let mut all = problem.model.interfaces.iter().zip(&problem.interfaces);
+    all.all(|(interface, bound)| {
+        !bound.stiff && EVEN.contains(&stiffness_number(&problem.model, interface, &bound.laws))
+    })
+}
+
+/// Work of a factor of `plain`, for the pattern of the bodies.
+pub(super) fn plain_work(problem: &Problem, bodies: &Pattern) -> FrontWork {
+    Primal::work(bodies, problem.model.coordinates(), &problem.model.interfaces)
 }

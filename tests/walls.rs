@@ -1,0 +1,228 @@
+//! Claim: walls of many bricks, each a mesh of its own, come out the same on the displacements of condensed bricks and on all displacements,
+//! to 1e-9 of the largest value; bricks that are equal up to a motion are condensed once; under little pressure the wall is pushed to
+//! its end.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use midplane::history::{Clock, Equations, History, Means, ModelState};
+use midplane::problem::Problem;
+use midplane::run::{Options, prepare};
+use midplane::solver::Continuum;
+
+const FRICTION: &str = r#"{ "type": "coulomb", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "friction_coefficient": 0.6 }"#;
+const CRACKING: &str = r#"{ "type": "cracking", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "tensile_strength": 0.05,
+    "cohesion": 0.1, "tan_friction": 0.6, "fracture_energy_i": 1e-4, "fracture_energy_iia": 1e-3, "dilatancy_stress": 0 }"#;
+
+/// A block of a geometry: its corners counter-clockwise, and its cells along the first and the second side.
+struct Block {
+    corners: [[f64; 2]; 4],
+    cells: [usize; 2],
+}
+
+/// A geometry of blocks `b1`, `b2`, … with sides `b1_1` … `b1_4`.
+fn geometry(blocks: &[Block]) -> String {
+    let mut geo = String::new();
+    for (b, Block { corners, cells }) in (1..).zip(blocks) {
+        let n = 4 * b;
+        for (i, [x, y]) in corners.iter().enumerate() {
+            writeln!(geo, "Point({}) = {{{x}, {y}, 0}};", n + i).unwrap();
+        }
+        for i in 0..4 {
+            writeln!(geo, "Line({}) = {{{}, {}}};", n + i, n + i, n + (i + 1) % 4).unwrap();
+            writeln!(geo, "Transfinite Curve {{{}}} = {};", n + i, cells[i % 2] + 1).unwrap();
+            writeln!(geo, "Physical Curve(\"b{b}_{}\") = {{{}}};", i + 1, n + i).unwrap();
+        }
+        writeln!(geo, "Curve Loop({b}) = {{{n}:{}}}; Plane Surface({b}) = {{{b}}};", n + 3).unwrap();
+        writeln!(geo, "Transfinite Surface {{{b}}}; Recombine Surface {{{b}}};").unwrap();
+        writeln!(geo, "Physical Surface(\"b{b}\") = {{{b}}};").unwrap();
+    }
+    geo
+}
+
+/// Bricks of 0.25 by 0.1 in running bond, half ones at the ends of every second course; those of the lowest and of the top course.
+fn wall(courses: usize, bricks: usize) -> (Vec<Block>, [Vec<usize>; 2]) {
+    let (mut blocks, mut ends) = (Vec::new(), [Vec::new(), Vec::new()]);
+    for course in 0..courses {
+        let shift = if course % 2 == 0 { 0.0 } else { 0.125 };
+        let edges =
+            (0..=bricks + course % 2).map(|k| (0.25 * k as f64 - shift).clamp(0.0, 0.25 * bricks as f64));
+        let edges: Vec<f64> = edges.collect();
+        let (low, high) = (0.1 * course as f64, 0.1 * (course + 1) as f64);
+        for pair in edges.windows(2) {
+            let along = if pair[1] - pair[0] > 0.2 { 4 + course % 2 } else { 2 };
+            blocks.push(Block {
+                corners: [[pair[0], low], [pair[1], low], [pair[1], high], [pair[0], high]],
+                cells: [along, 2],
+            });
+            for (end, there) in [course == 0, course + 1 == courses].into_iter().enumerate() {
+                if there {
+                    ends[end].push(blocks.len());
+                }
+            }
+        }
+    }
+    (blocks, ends)
+}
+
+/// The scene of blocks that touch, between steps of JSON.
+fn scene(folder: &Path, blocks: &[Block], law: &str, steps: &str) {
+    std::fs::write(folder.join("blocks.geo"), geometry(blocks)).unwrap();
+    let subdomain =
+        |b: usize| format!(r#""b{b}": {{ "geo": "blocks.geo", "surface": "b{b}", "material": "brick" }}"#);
+    let subdomains: Vec<String> = (1..=blocks.len()).map(subdomain).collect();
+    let text = format!(
+        r#"{{ "plane": "strain", "subdomains": {{ {} }},
+          "materials": {{ "brick": {{ "young": 1e4, "poisson": 0.15, "density": 2e-3 }} }},
+          "interfaces": {{ "joints": {{ "between": ["b*", "b*"], "law": {law} }} }},
+          "steps": [ {steps} ], "output": {{ "fields": "none" }} }}"#,
+        subdomains.join(", ")
+    );
+    std::fs::write(folder.join("scene.json"), text).unwrap();
+}
+
+/// Loads or supports on a side of some blocks.
+fn on(blocks: &[usize], side: usize, what: &str) -> String {
+    let one = |b: &usize| format!(r#""b{b}.b{b}_{side}": {what}"#);
+    blocks.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+fn bound(folder: &Path, strategy: &str) -> Problem {
+    let options = Options {
+        out: Some(folder.join(strategy)),
+        settings: vec![format!("solution.strategy={strategy}")],
+        ..Options::of(&folder.join("scene.json"))
+    };
+    prepare(&options, &mut |_| ()).unwrap().problem
+}
+
+/// The state after every increment.
+fn states(folder: &Path, strategy: &str) -> Vec<ModelState> {
+    let problem = bound(folder, strategy);
+    let mut clock = Clock::new("test");
+    let equations = Equations::new(&problem, Means::default(), &mut clock).unwrap();
+    let mut history = History::new(&problem, &equations, clock);
+    let mut states = Vec::new();
+    while let Some(increment) = history.next().unwrap() {
+        if increment.number > 0 {
+            states.push(history.state().clone());
+        }
+    }
+    states
+}
+
+/// Largest differences of displacements and of tractions, over the largest values.
+fn apart(a: &ModelState, b: &ModelState) -> [f64; 2] {
+    let largest = |a: &mut dyn Iterator<Item = (f64, f64)>| {
+        let (difference, largest) = a.fold((0.0_f64, f64::MIN_POSITIVE), |(difference, largest), (a, b)| {
+            (difference.max((a - b).abs()), largest.max(a.abs()))
+        });
+        difference / largest
+    };
+    let u = |state: &ModelState| state.snapshot.u.clone();
+    let t = |state: &ModelState| -> Vec<f64> {
+        state.snapshot.tractions.iter().flatten().flatten().copied().collect()
+    };
+    [largest(&mut u(a).into_iter().zip(u(b))), largest(&mut t(a).into_iter().zip(t(b)))]
+}
+
+#[test]
+fn condensed_bricks_and_all_displacements_find_the_same() {
+    let (blocks, [low, top]) = wall(10, 10);
+    assert_eq!(blocks.len(), 105);
+    for (name, law, shear) in [("friction", FRICTION, 0.07), ("cracking", CRACKING, 0.09)] {
+        let folder = tempfile::tempdir().unwrap();
+        let (fix, press) = (on(&low, 1, r#"["x", "y"]"#), on(&top, 3, r#"{ "pressure": 0.2 }"#));
+        let push = on(&top, 3, &format!(r#"{{ "traction": [{shear}, -0.2] }}"#));
+        let steps = format!(
+            r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }}, "load": {{ {press} }} }},
+               {{ "name": "push", "increments": 5, "load": {{ {push} }} }}"#
+        );
+        scene(folder.path(), &blocks, law, &steps);
+        let [one, other] = ["blocks", "plain"].map(|strategy| states(folder.path(), strategy));
+        assert_eq!((one.len(), other.len()), (6, 6));
+        let last = &one[5];
+        assert!(last.dissipated > 0.0, "{name}: nothing slides or cracks");
+        for (a, b) in one.iter().zip(&other) {
+            let apart = apart(a, b);
+            assert!(apart.iter().all(|apart| *apart <= 1e-9), "{name}: {apart:?}");
+        }
+    }
+}
+
+#[test]
+fn voussoirs_of_an_arch_are_condensed_once_and_turned() {
+    // seven of one size, turned against each other; the first and the last are held, and the fourth is loaded
+    let voussoirs = 7;
+    let at = |k: usize, r: f64| {
+        let angle = std::f64::consts::PI * (0.1 + 0.8 * k as f64 / voussoirs as f64);
+        [r * angle.cos(), r * angle.sin()]
+    };
+    let block =
+        |k: usize| Block { corners: [at(k, 1.0), at(k, 1.3), at(k + 1, 1.3), at(k + 1, 1.0)], cells: [6, 5] };
+    let blocks: Vec<Block> = (0..voussoirs).map(block).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let fix = [on(&[1], 1, r#"["x", "y"]"#), on(&[voussoirs], 3, r#"["x", "y"]"#)].join(", ");
+    let steps = format!(
+        r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }} }},
+           {{ "name": "load", "increments": 3, "load": {{ {} }} }}"#,
+        on(&[4], 2, r#"{ "traction": [0.0, -0.02] }"#)
+    );
+    scene(folder.path(), &blocks, FRICTION, &steps);
+    let problem = bound(folder.path(), "blocks");
+    let held: Vec<bool> = problem.steps[0].constrained.clone();
+    // 2 to 6 are one; 1 and 7 have interfaces on one side only, and supports
+    assert_eq!(Continuum::new(&problem.model, &held, None).unwrap().distinct().0, 3);
+    let [one, other] = ["blocks", "plain"].map(|strategy| states(folder.path(), strategy));
+    for (a, b) in one.iter().zip(&other) {
+        let apart = apart(a, b);
+        assert!(apart.iter().all(|apart| *apart <= 1e-9), "{apart:?}");
+    }
+}
+
+#[test]
+fn bricks_of_another_size_or_material_are_not_equal() {
+    let (mut blocks, [low, _]) = wall(4, 3);
+    let folder = tempfile::tempdir().unwrap();
+    let step = format!(
+        r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {} }} }}"#,
+        on(&low, 1, r#"["x", "y"]"#)
+    );
+    let distinct = |blocks: &[Block], held: bool| {
+        scene(folder.path(), blocks, FRICTION, &step);
+        let problem = bound(folder.path(), "blocks");
+        let held: Vec<bool> =
+            problem.steps[0].constrained.iter().map(|constrained| held && *constrained).collect();
+        Continuum::new(&problem.model, &held, None).unwrap().distinct().0
+    };
+    let before = distinct(&blocks, true);
+    assert!(before < blocks.len(), "{before}");
+    // a brick in the middle, of which there is another: longer cells in one, the same number
+    let middle = blocks.iter().position(|block| block.corners[0] == [0.125, 0.1]).unwrap();
+    for corner in [1, 2] {
+        blocks[middle].corners[corner][0] += 1e-3;
+        blocks[middle + 1].corners[[0, 3][corner - 1]][0] += 1e-3;
+    }
+    assert!(distinct(&blocks, true) > before);
+}
+
+#[test]
+fn a_wall_under_little_pressure_is_pushed_to_its_end() {
+    let (blocks, [low, top]) = wall(6, 4);
+    for (law, pressure) in [(CRACKING, 0.01), (CRACKING, 0.002), (FRICTION, 0.002)] {
+        for increments in [5, 40] {
+            let folder = tempfile::tempdir().unwrap();
+            let (fix, press) =
+                (on(&low, 1, r#"["x", "y"]"#), on(&top, 3, &format!(r#"{{ "pressure": {pressure} }}"#)));
+            let push = on(&top, 3, r#"{ "x": 2e-4 }"#);
+            let steps = format!(
+                r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }}, "load": {{ {press} }} }},
+                   {{ "name": "push", "increments": {increments}, "displace": {{ {push} }} }}"#
+            );
+            scene(folder.path(), &blocks, law, &steps);
+            let states = states(folder.path(), "blocks");
+            assert_eq!(states.len(), 1 + increments);
+            assert!(states[increments].dissipated > 0.0);
+        }
+    }
+}
