@@ -21,7 +21,7 @@ pub struct SubdomainCache {
 }
 
 impl SubdomainCache {
-    /// A cache that keeps about this many bytes of condensations, the first that come.
+    /// A cache that keeps about this many bytes of bodies and condensations, the first that come.
     pub fn new(room: usize) -> SubdomainCache {
         SubdomainCache { subdomains: Mutex::default(), room: AtomicUsize::new(room) }
     }
@@ -39,8 +39,17 @@ impl SubdomainCache {
             return Ok((known.clone(), true));
         }
         let new = Arc::new(Substructure::new(components, subdomain, thickness, joined)?);
-        self.subdomains().insert(key, new.clone());
+        // its stiffness has no more entries than its condensation
+        if self.take_room(new.bytes()) {
+            self.subdomains().insert(key, new.clone());
+        }
         Ok((new, false))
+    }
+
+    /// True if so many bytes may be kept.
+    fn take_room(&self, bytes: usize) -> bool {
+        let take = |room: usize| room.checked_sub(bytes);
+        self.room.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_ok()
     }
 
     fn subdomains(&self) -> MutexGuard<'_, HashMap<SubdomainDigest, Arc<Substructure>>> {
@@ -57,9 +66,7 @@ impl SubdomainCache {
             return Ok((kept, true));
         }
         let condensed = Arc::new(subdomain.condense(constrained)?);
-        let bytes = subdomain.bytes();
-        let take = |room: usize| room.checked_sub(bytes);
-        if self.room.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take).is_ok() {
+        if self.take_room(subdomain.bytes()) {
             subdomain.keep(&condensed);
         }
         Ok((condensed, false))
