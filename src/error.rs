@@ -152,7 +152,8 @@ impl std::fmt::Display for At {
             write!(f, ":{}", self.line)?;
         }
         if !self.key.is_empty() {
-            write!(f, " {}", short_line(&self.key))?;
+            let space = if self.file.as_os_str().is_empty() { "" } else { " " };
+            write!(f, "{space}{}", short_line(&self.key))?;
         }
         Ok(())
     }
