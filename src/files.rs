@@ -1,6 +1,6 @@
 //! Files that are whole or absent at every moment.
 
-use std::io::Write;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
@@ -10,17 +10,25 @@ pub const HIDDEN: &str = ".midplane-";
 
 /// Writes a file aside and renames it into place; makes the folder if needed.
 pub fn write_whole(path: &Path, content: &[u8]) -> Result<()> {
+    write_whole_by(path, |file| file.write_all(content).map_err(Error::io("write", path)))
+}
+
+/// The same for a content that comes piece by piece.
+pub fn write_whole_by(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     std::fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
     let prefix = format!("{HIDDEN}writing-");
-    let mut file =
+    let file =
         tempfile::Builder::new().prefix(&prefix).tempfile_in(folder).map_err(Error::io("write", path))?;
     // whoever clears up leaves it alone as long as it is locked; where nothing can be locked only its run clears up
     let _ = file.as_file().try_lock();
-    file.write_all(content).map_err(Error::io("write", path))?;
+    let mut buffer = BufWriter::new(file.as_file());
+    write(&mut buffer)?;
+    buffer.flush().map_err(Error::io("write", path))?;
+    drop(buffer);
     readable(&file).map_err(Error::io("write", path))?;
     file.persist(path).map_err(|error| Error::Io {
         action: "write",

@@ -84,6 +84,7 @@ mod steps;
 mod stiff;
 mod structures;
 mod study;
+mod study_shards;
 mod tension;
 mod tunnel;
 mod units;

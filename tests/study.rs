@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The strip in a folder of its own, with a study.
-struct Strip(tempfile::TempDir);
+pub(crate) struct Strip(tempfile::TempDir);
 
 impl Strip {
-    fn new(study: &str) -> Strip {
+    pub(crate) fn new(study: &str) -> Strip {
         let folder = tempfile::tempdir().unwrap();
         let geo = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/strip");
         for file in ["lower.geo", "upper.geo", "scene.json"] {
@@ -19,11 +19,11 @@ impl Strip {
         Strip(folder)
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn midplane(&self, arguments: &[&str]) -> Output {
+    pub(crate) fn midplane(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_midplane"))
             .args(arguments)
             .current_dir(self.0.path())
@@ -32,14 +32,14 @@ impl Strip {
     }
 
     /// Runs the study, which must succeed; returns what it printed.
-    fn study(&self, out: &str, more: &[&str]) -> String {
+    pub(crate) fn study(&self, out: &str, more: &[&str]) -> String {
         let output = self.midplane(&[&["study", "study.json", "-o", out], more].concat());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8_lossy(&output.stdout).into_owned()
     }
 
     /// Rows of study.csv by column; none of the cells here holds a quoted comma but the last two.
-    fn table(&self, out: &str) -> Vec<HashMap<String, String>> {
+    pub(crate) fn table(&self, out: &str) -> Vec<HashMap<String, String>> {
         let text = std::fs::read_to_string(self.path(out).join("study.csv")).unwrap();
         let mut lines = text.lines();
         let head: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -84,10 +84,11 @@ fn a_limit_load_is_reached_and_has_not_failed() {
     assert!(number(&rows[0], "limit.error") < 0.2);
 }
 
-const AXES: &str = r#""axes": {
+pub(crate) const AXES: &str = r#""axes": {
     "lower": { "parameter": "lower.edges", "values": [4, 6, 8] },
     "upper": { "parameter": "upper.edges", "range": [5, 9], "count": 2, "whole": true } }"#;
-const ENERGY: &str = r#""energy": { "take": "last", "of": "energy.stored", "reference": 0.0008920729575 }"#;
+pub(crate) const ENERGY: &str =
+    r#""energy": { "take": "last", "of": "energy.stored", "reference": 0.0008920729575 }"#;
 
 /// A k × l study of two meshes prepares k + l bodies, and its points have the energies of single runs.
 #[test]

@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::Stop;
 use crate::run::{Every, Options};
+use crate::study::Shard;
 
 /// Finite elements of solids whose parts are meshed separately and joined along interfaces.
 #[derive(Debug, Parser)]
@@ -107,8 +108,10 @@ A path prescribes displacement or stress, segment by segment and component by co
 Examples:
   midplane study geo/strip/study.json               results/strip_study/study.csv; goes on where it was
   midplane study geo/strip/study.json --jobs 4      four points side by side
-  midplane study geo/strip/study.json --count       number of points, for a cluster's array of jobs
-  midplane study geo/strip/study.json --point 7     that point only; a later run without --point collects
+  midplane study geo/strip/study.json --count       number of points, after a look at the scene of each
+  midplane study geo/strip/study.json --shard 0/4   points 0, 4, 8, ..., for one of 4 jobs of a cluster (docs/CLUSTER.md)
+  midplane study geo/strip/study.json --collect     study.csv of the points that are there, after the last shard
+  midplane study geo/strip/study.json --point 7     that point only, again if it is there
 
 What a study may hold: midplane schema study")]
     Study {
@@ -126,8 +129,14 @@ What a study may hold: midplane schema study")]
         /// Run this point only, counted from 0
         #[arg(long, value_name = "K")]
         point: Option<usize>,
+        /// Run the points of shard K of N only, K from 0: those whose number leaves the rest K when divided by N
+        #[arg(long, value_name = "K/N", allow_hyphen_values = true, conflicts_with = "point")]
+        shard: Option<Shard>,
+        /// Run nothing: write the table of the points that are there and say how many are missing
+        #[arg(long, conflicts_with_all = ["point", "shard"])]
+        collect: bool,
         /// Print the number of points and do nothing
-        #[arg(long, conflicts_with = "point")]
+        #[arg(long, conflicts_with_all = ["point", "shard", "collect"])]
         count: bool,
         /// Run the point once and write its outcome here
         #[arg(long, value_name = "FILE", requires = "point", hide = true)]

@@ -9,70 +9,121 @@ use indicatif::ProgressStyle;
 
 use super::printer::Printer;
 use crate::error::Result;
-use crate::study::{self, PointOutcome, Progress, StudyDone, StudyMeans, StudyPlan};
+use crate::study::{self, PointOutcome, Progress, Selection, Shard, StudyDone, StudyMeans, StudyPlan};
 
-/// Runs a study, or a point of it, and shows it.
-pub(super) fn study(
-    plan: &StudyPlan,
-    means: &StudyMeans,
-    point: Option<usize>,
-    once: Option<&Path>,
-    (quiet, printer): (bool, &Printer),
-) -> Result<()> {
-    let line = |text: &str| {
-        if !quiet {
-            printer.out(text);
-        }
-    };
-    match (point, once) {
-        (Some(point), Some(file)) => {
-            super::set_threads(NonZeroUsize::new(means.threads))?;
-            study::run_once(plan, means, point, file).map(|_| ())
-        }
-        (Some(point), None) => {
-            let outcome = study::run_one(plan, means, point)?;
-            line(&described(plan, &outcome));
-            Ok(())
-        }
-        (None, _) => {
-            let bar = !quiet && std::io::stderr().is_terminal();
-            if bar {
-                let total = plan.len() as u64;
-                let style = ProgressStyle::with_template("{bar:30} {pos}/{len} points, {eta} left {msg}");
-                printer.bar(move |bar| {
-                    bar.set_length(total);
-                    style.into_iter().for_each(|style| bar.set_style(style));
-                    bar.enable_steady_tick(Duration::from_millis(200));
-                });
+/// A study whose progress is shown.
+pub(super) struct Follow<'a> {
+    plan: &'a StudyPlan,
+    means: &'a StudyMeans,
+    quiet: bool,
+    /// A bar in place of lines.
+    bar: bool,
+    printer: &'a Printer,
+}
+
+impl<'a> Follow<'a> {
+    pub(super) fn new(
+        plan: &'a StudyPlan,
+        means: &'a StudyMeans,
+        quiet: bool,
+        printer: &'a Printer,
+    ) -> Follow<'a> {
+        Follow { plan, means, quiet, bar: !quiet && std::io::stderr().is_terminal(), printer }
+    }
+
+    /// Runs what is selected; one point may be run `once`, its outcome written to a file of its own.
+    pub(super) fn run(&self, once: Option<&Path>) -> Result<()> {
+        match (self.plan.selection, once) {
+            (Selection::Point(point), Some(file)) => {
+                super::set_threads(NonZeroUsize::new(self.means.threads))?;
+                study::run_once(self.plan, self.means, point, file).map(|_| ())
             }
-            let mut show = |progress: Progress| match (bar, progress.outcome) {
-                (true, outcome) => {
-                    let (done, begins) = (progress.done as u64, outcome.is_none());
-                    printer.bar(move |bar| {
-                        bar.set_position(done);
-                        if begins {
-                            bar.reset_eta();
-                        }
-                    });
-                    if let Some(outcome) = outcome.filter(|outcome| !outcome.done()) {
-                        line(&described(plan, outcome));
-                    }
-                }
-                (false, None) if progress.done > 0 => {
-                    line(&format!("{} of {} points are there", progress.done, progress.total));
-                }
-                (false, Some(outcome)) => {
-                    line(&format!("{:>5}/{}  {}", progress.done, progress.total, described(plan, outcome)));
-                }
-                (false, None) => {}
-            };
-            let done = study::run(plan, means, &mut show)?;
-            if bar {
-                printer.bar(|bar| bar.finish_and_clear());
+            (Selection::Point(point), None) => {
+                let outcome = study::run_one(self.plan, self.means, point)?;
+                self.line(&described(self.plan, &outcome));
+                Ok(())
             }
-            ended(means, &done).iter().for_each(|text| line(text));
-            Ok(())
+            (Selection::Shard(Shard { index, count }), _) => {
+                let done = study::run_shard(self.plan, self.means, &mut |progress| self.show(&progress))?;
+                self.finish();
+                self.line(&format!(
+                    "shard {index} of {count}: {} points, {} of them failed",
+                    done.points, done.failed
+                ));
+                Ok(())
+            }
+            (Selection::All, _) => {
+                let done = study::run(self.plan, self.means, &mut |progress| self.show(&progress))?;
+                self.finish();
+                self.ended(&done);
+                Ok(())
+            }
         }
+    }
+
+    /// Writes the table of the points that are there.
+    pub(super) fn collect(&self) -> Result<()> {
+        let done = study::collect(self.plan, self.means)?;
+        self.ended(&done);
+        Ok(())
+    }
+
+    fn show(&self, progress: &Progress) {
+        let &Progress { done, total, outcome } = progress;
+        match (self.bar, outcome) {
+            (true, None) => self.begin(done as u64, total as u64),
+            (true, Some(outcome)) => {
+                self.printer.bar(move |bar| bar.set_position(done as u64));
+                if !outcome.done() {
+                    self.line(&described(self.plan, outcome));
+                }
+            }
+            (false, None) if done > 0 => self.line(&format!("{done} of {total} points are there")),
+            (false, Some(outcome)) => {
+                self.line(&format!("{done:>5}/{total}  {}", described(self.plan, outcome)));
+            }
+            (false, None) => {}
+        }
+    }
+
+    fn begin(&self, done: u64, total: u64) {
+        let style = ProgressStyle::with_template("{bar:30} {pos}/{len} points, {eta} left {msg}");
+        self.printer.bar(move |bar| {
+            bar.set_length(total);
+            style.into_iter().for_each(|style| bar.set_style(style));
+            bar.enable_steady_tick(Duration::from_millis(200));
+            bar.set_position(done);
+            bar.reset_eta();
+        });
+    }
+
+    fn finish(&self) {
+        if self.bar {
+            self.printer.bar(|bar| bar.finish_and_clear());
+        }
+    }
+
+    fn line(&self, text: &str) {
+        if !self.quiet {
+            self.printer.out(text);
+        }
+    }
+
+    fn ended(&self, done: &StudyDone) {
+        for (name, limit) in &done.limits {
+            let order = limit.order.map_or_else(String::new, |order| format!(", order {order:.2}"));
+            self.line(&format!("reference {name} {:.9e} ± {:.1e}{order}", limit.value, limit.uncertainty));
+        }
+        self.line(&format!("{} points, {} of them failed", done.points, done.failed));
+        if let Some(first) = done.first_missing {
+            // an incomplete table is told even to who wants errors only
+            self.printer.error(&format!(
+                "note: {} of {} points are missing, the first is {first}",
+                done.missing,
+                self.plan.len()
+            ));
+        }
+        self.line(&format!("wrote    {}", self.means.out.join("study.csv").display()));
     }
 }
 
@@ -84,19 +135,4 @@ fn described(plan: &StudyPlan, outcome: &PointOutcome) -> String {
     let end =
         if outcome.done() { values.join("  ") } else { format!("{}: {}", outcome.status, outcome.message) };
     format!("point {:<4} {seconds:>8.3} s  {end}", outcome.point)
-}
-
-fn ended(means: &StudyMeans, done: &StudyDone) -> Vec<String> {
-    let mut lines: Vec<String> = done
-        .limits
-        .iter()
-        .map(|(name, limit)| {
-            let order = limit.order.map_or_else(String::new, |order| format!(", order {order:.2}"));
-            format!("reference {name} {:.9e} ± {:.1e}{order}", limit.value, limit.uncertainty)
-        })
-        .collect();
-    let failed = done.outcomes[..done.designed].iter().filter(|outcome| !outcome.done()).count();
-    lines.push(format!("{} points, {failed} of them failed", done.designed));
-    lines.push(format!("wrote    {}", means.out.join("study.csv").display()));
-    lines
 }

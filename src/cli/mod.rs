@@ -93,8 +93,10 @@ fn act(arguments: Arguments, printer: &Printer) -> Result<()> {
             print(&String::from_utf8_lossy(&csv))?;
             ended.map_or(Ok(()), Err)
         }
-        Command::Study { file, out, jobs, threads, point, count, once, mesher, quiet } => {
-            let plan = study::StudyPlan::read(&file, point)?;
+        Command::Study { file, out, jobs, threads, point, shard, collect, count, once, mesher, quiet } => {
+            let all_or_shard = shard.map_or(study::Selection::All, study::Selection::Shard);
+            let selection = point.map_or(all_or_shard, study::Selection::Point);
+            let plan = study::StudyPlan::read(&file, selection)?;
             if count {
                 return print(&format!("{}\n", plan.len()));
             }
@@ -103,7 +105,8 @@ fn act(arguments: Arguments, printer: &Printer) -> Result<()> {
             let cores = std::thread::available_parallelism().map_or(1, usize::from);
             let threads = threads.map_or((cores / jobs.get()).max(1), usize::from);
             let means = study::StudyMeans { out, file, options, jobs: jobs.get(), threads };
-            follow::study(&plan, &means, point, once.as_deref(), (quiet, printer))
+            let follow = follow::Follow::new(&plan, &means, quiet, printer);
+            if collect { follow.collect() } else { follow.run(once.as_deref()) }
         }
         Command::Schema { of } => {
             let schema = match of {

@@ -5,17 +5,14 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::error::{Error, Result, clean};
-use crate::files::write_whole;
+use crate::files::write_whole_by;
 
 /// Writes a value as indented JSON.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<()> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|error| Error::Io {
-        action: "write",
-        path: path.into(),
-        source: std::io::Error::other(error),
-    })?;
-    text.push('\n');
-    write_whole(path, text.as_bytes())
+    write_whole_by(path, |file| {
+        let written = serde_json::to_writer_pretty(&mut *file, value).map_err(std::io::Error::from);
+        written.and_then(|()| file.write_all(b"\n")).map_err(Error::io("write", path))
+    })
 }
 
 /// A field of a CSV file: one with a comma, quote or line break is quoted, control characters are replaced.

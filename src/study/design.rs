@@ -18,54 +18,94 @@ pub(super) struct StudyPoint {
 /// More points are a mistake.
 const MOST: usize = 1_000_000;
 
-/// The points of a study in order; `source` is for refusals.
-pub(super) fn points(study: &Study, source: &Source) -> Result<Vec<StudyPoint>> {
-    for (name, axis) in &study.axes {
-        check(name, axis, source)?;
-    }
-    let lists: Vec<Vec<Value>> = study.axes.values().map(values).collect();
-    let choices: Vec<Vec<Option<Value>>> = match study.design {
-        Design::Grid => {
-            let total = lists.iter().try_fold(1_usize, |n, list| n.checked_mul(list.len()));
-            if total.is_none_or(|total| total > MOST) {
-                return Err(source.error_at(&["axes"], "more than a million points", "shorten the axes"));
-            }
-            lists.iter().fold(vec![Vec::new()], |points, list| {
-                let longer = |point: &Vec<Option<Value>>| {
-                    let point = point.clone();
-                    list.iter().map(move |value| [&point[..], &[Some(value.clone())]].concat())
-                };
-                points.iter().flat_map(longer).collect()
-            })
+/// Points of the axes, each made when it is asked for.
+#[derive(Debug)]
+pub(super) struct DesignPoints {
+    /// Number of points.
+    pub(super) count: usize,
+    /// Of a Latin hypercube, the stratum of every point by axis.
+    strata: Vec<Vec<u32>>,
+}
+
+impl DesignPoints {
+    /// The points of a study; `source` is for refusals.
+    pub(super) fn new(study: &Study, source: &Source) -> Result<DesignPoints> {
+        for (name, axis) in &study.axes {
+            check(name, axis, source)?;
         }
-        Design::OneAtATime => {
-            let as_it_is = vec![None; lists.len()];
-            let mut points = vec![as_it_is.clone()];
-            for (a, list) in lists.iter().enumerate() {
-                for value in list {
-                    let mut point = as_it_is.clone();
-                    point[a] = Some(value.clone());
-                    points.push(point);
+        let lengths = || study.axes.values().map(length);
+        let mut strata = Vec::new();
+        let count = match study.design {
+            Design::Grid => {
+                let total = lengths().try_fold(1_usize, usize::checked_mul);
+                total.filter(|total| *total <= MOST).ok_or_else(|| {
+                    source.error_at(&["axes"], "more than a million points", "shorten the axes")
+                })?
+            }
+            Design::OneAtATime => 1 + lengths().sum::<usize>(),
+            Design::LatinHypercube { points, seed } => {
+                if points == 0 || points > MOST {
+                    return Err(source.error_at(&["design"], format!("{points} points"), "ask for some"));
                 }
+                strata.extend((0..study.axes.len()).map(|axis| shuffled(axis, points, seed)));
+                points
             }
-            points
-        }
-        Design::LatinHypercube { points, seed } => {
-            if points == 0 || points > MOST {
-                return Err(source.error_at(&["design"], format!("{points} points"), "ask for some"));
-            }
-            latin_hypercube(study, &lists, points, seed)
-        }
-    };
-    let point = |values: Vec<Option<Value>>| {
+        };
+        Ok(DesignPoints { count, strata })
+    }
+
+    /// A point of the study.
+    pub(super) fn point(&self, study: &Study, point: usize) -> StudyPoint {
         let mut settings = vec!["/output/fields=none".to_string()];
         settings.extend(study.set.iter().map(setting));
+        let values = self.values(study, point);
         for (axis, value) in study.axes.values().zip(&values) {
             value.iter().for_each(|value| settings.extend(axis_settings(axis, value)));
         }
         StudyPoint { values: values.into_iter().map(Option::unwrap_or_default).collect(), settings }
-    };
-    Ok(choices.into_iter().map(point).collect())
+    }
+
+    /// A value per axis; none where the scene rules.
+    fn values(&self, study: &Study, point: usize) -> Vec<Option<Value>> {
+        let axes = study.axes.values();
+        match study.design {
+            Design::Grid => {
+                let mut rest = point;
+                let mut values: Vec<Option<Value>> = axes
+                    .rev()
+                    .map(|axis| {
+                        let i = rest % length(axis);
+                        rest /= length(axis);
+                        Some(value(axis, i))
+                    })
+                    .collect();
+                values.reverse();
+                values
+            }
+            Design::OneAtATime => {
+                let mut begin = 1;
+                axes.map(|axis| {
+                    let i = point.checked_sub(begin).filter(|i| *i < length(axis));
+                    begin += length(axis);
+                    i.map(|i| value(axis, i))
+                })
+                .collect()
+            }
+            Design::LatinHypercube { points, seed } => {
+                let place = |(a, axis): (usize, &Axis)| {
+                    let within = unit(seed, first(a, points) + points - 1 + point);
+                    let fraction = (f64::from(self.strata[a][point]) + within) / points as f64;
+                    Some(match &axis.values {
+                        Some(list) => {
+                            list[((fraction * list.len() as f64) as usize).min(list.len() - 1)].clone()
+                        }
+                        None => at(axis, fraction),
+                    })
+                };
+                axes.enumerate().map(place).collect()
+            }
+        }
+    }
 }
 
 /// KEY=VALUE.
@@ -124,12 +164,17 @@ fn check(name: &str, axis: &Axis, source: &Source) -> Result<()> {
     Ok(())
 }
 
-/// The values of an axis.
-fn values(axis: &Axis) -> Vec<Value> {
+/// Number of values of an axis.
+fn length(axis: &Axis) -> usize {
+    axis.values.as_ref().map_or(axis.count.unwrap_or(1), Vec::len)
+}
+
+/// A value of an axis.
+fn value(axis: &Axis, i: usize) -> Value {
     match (&axis.values, axis.count.unwrap_or(1)) {
-        (Some(values), _) => values.clone(),
-        (None, 1) => vec![at(axis, 0.0)],
-        (None, count) => (0..count).map(|i| at(axis, i as f64 / (count - 1) as f64)).collect(),
+        (Some(values), _) => values[i].clone(),
+        (None, 1) => at(axis, 0.0),
+        (None, count) => at(axis, i as f64 / (count - 1) as f64),
     }
 }
 
@@ -146,42 +191,26 @@ fn at(axis: &Axis, fraction: f64) -> Value {
     if axis.whole { Value::from(value.round() as i64) } else { Value::from(value) }
 }
 
-fn latin_hypercube(study: &Study, lists: &[Vec<Value>], points: usize, seed: u64) -> Vec<Vec<Option<Value>>> {
-    let mut random = Random(seed);
-    let columns: Vec<Vec<Value>> = study
-        .axes
-        .values()
-        .zip(lists)
-        .map(|(axis, list)| {
-            let mut strata: Vec<usize> = (0..points).collect();
-            for i in (1..points).rev() {
-                strata.swap(i, (random.unit() * (i + 1) as f64) as usize);
-            }
-            let value = |stratum: usize| {
-                let fraction = (stratum as f64 + random.unit()) / points as f64;
-                match axis.values {
-                    Some(_) => list[((fraction * list.len() as f64) as usize).min(list.len() - 1)].clone(),
-                    None => at(axis, fraction),
-                }
-            };
-            strata.into_iter().map(value).collect()
-        })
-        .collect();
-    (0..points).map(|p| columns.iter().map(|column| Some(column[p].clone())).collect()).collect()
+/// Strata of a Latin hypercube's axis in the order of the points.
+fn shuffled(axis: usize, points: usize, seed: u64) -> Vec<u32> {
+    let mut strata: Vec<u32> = (0..points as u32).collect();
+    for (n, i) in (1..points).rev().enumerate() {
+        strata.swap(i, (unit(seed, first(axis, points) + n) * (i + 1) as f64) as usize);
+    }
+    strata
 }
 
-/// SplitMix64: small, the same on every machine.
-struct Random(u64);
+/// First of an axis' random numbers: those that shuffle its strata, then one per point.
+fn first(axis: usize, points: usize) -> usize {
+    axis * (2 * points - 1)
+}
 
-impl Random {
-    /// A number from 0 to below 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
+/// Number n of a random sequence, from 0 to below 1. SplitMix64: small, the same on every machine, its numbers in any order.
+fn unit(seed: u64, n: usize) -> f64 {
+    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(n as u64 + 1));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 #[cfg(test)]
@@ -191,7 +220,8 @@ mod tests {
 
     fn of(text: &str) -> Result<Vec<StudyPoint>> {
         let (study, source) = document::<Study>("study.json".into(), text.into(), "a study", |_, _| Ok(()))?;
-        points(&study, &source)
+        let points = DesignPoints::new(&study, &source)?;
+        Ok((0..points.count).map(|k| points.point(&study, k)).collect())
     }
 
     #[test]

@@ -1,13 +1,17 @@
 //! Parametric studies: the same scene at many points of its keys, measured against what is known.
 //!
 //! ```text
-//!   study.json ▸ points ▸ run each: in threads of this process, in processes, or on a cluster (--point K)
+//!   study.json ▸ points ▸ run each: in threads of this process, in processes, or on a cluster (--shard K/N, --point K)
 //!                           └► points/K.json ▸ reference ▸ study.csv, study.json
 //! ```
+//!
+//! Points are made when they are needed and outcomes read when they are written into the tables: a study of many points holds
+//! a number or two of each.
 //!
 //! A point whose outcome is on disk and whose scene has not changed is not run again, so that an interrupted study goes on
 //! where it was.
 
+mod csv;
 mod design;
 mod file;
 mod gauge;
@@ -15,6 +19,7 @@ mod outcome;
 mod plan;
 mod point;
 mod reference;
+mod selection;
 mod summit;
 mod table;
 
@@ -23,6 +28,7 @@ pub use outcome::PointOutcome;
 pub use plan::StudyPlan;
 pub use point::StudyMeans;
 pub use reference::{FLOOR, Limit};
+pub use selection::{Selection, Shard};
 pub use table::Limits;
 
 use std::collections::VecDeque;
@@ -33,13 +39,14 @@ use crate::error::{At, Error, Result};
 use crate::history::{memory, processor};
 use crate::output::write_json;
 use crate::run::{Folder, Shared};
+use table::Table;
 
 /// Progress of a study.
 #[derive(Debug)]
 pub struct Progress<'a> {
-    /// Points that have an outcome.
+    /// Selected points that have an outcome.
     pub done: usize,
-    /// All points.
+    /// Selected points.
     pub total: usize,
     /// The last of them; absent when the study starts or goes on.
     pub outcome: Option<&'a PointOutcome>,
@@ -48,25 +55,82 @@ pub struct Progress<'a> {
 /// Outcome of a study.
 #[derive(Debug)]
 pub struct StudyDone {
-    /// Outcomes of the design's points, then of the reference's.
-    pub outcomes: Vec<PointOutcome>,
-    /// Number of those in the design.
-    pub designed: usize,
+    /// Number of points in the table: those of the design that have an outcome.
+    pub points: usize,
+    /// Number of those that failed.
+    pub failed: usize,
+    /// Number of points without an outcome, those of the reference included.
+    pub missing: usize,
+    /// The first of them.
+    pub first_missing: Option<usize>,
     /// Reference of every measure.
     pub limits: Limits,
 }
 
+/// Outcome of a shard.
+#[derive(Debug, Default)]
+pub struct ShardDone {
+    /// Number of its points.
+    pub points: usize,
+    /// Number of those that failed.
+    pub failed: usize,
+}
+
 /// Runs every point that has no outcome yet, then writes study.csv and study.json.
 pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress)) -> Result<StudyDone> {
-    let total = plan.len();
     let mut folder = Folder::open(&means.out)?;
     table::check_own(&means.out)?;
     folder.keep();
-    let shared = &Shared::new(&means.options, &means.meshes());
-    let mut outcomes: Vec<Option<PointOutcome>> =
-        (0..total).map(|k| point::earlier(plan, means, shared, k)).collect();
-    let missing: VecDeque<usize> = (0..total).filter(|&k| outcomes[k].is_none()).collect();
-    let mut done = total - missing.len();
+    let shared = Shared::new(&means.options, &means.meshes());
+    run_selected(plan, means, &shared, listen)?;
+    Table::survey(plan, means, &shared)?.write()
+}
+
+/// Runs every point of the plan's shard that has no outcome yet. Other processes may run other shards into the same folder.
+pub fn run_shard(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    listen: &mut dyn FnMut(Progress),
+) -> Result<ShardDone> {
+    table::check_own(&means.out)?;
+    run_selected(plan, means, &Shared::new(&means.options, &means.meshes()), listen)
+}
+
+/// Writes study.csv and study.json of the points that have an outcome, and runs none.
+pub fn collect(plan: &StudyPlan, means: &StudyMeans) -> Result<StudyDone> {
+    let mut folder = Folder::open(&means.out)?;
+    table::check_own(&means.out)?;
+    let shared = Shared::new(&means.options, &means.meshes());
+    let table = Table::survey(plan, means, &shared)?;
+    if table.is_empty() {
+        return Err(Error::Text {
+            at: Box::new(At { key: "--collect".into(), ..Default::default() }),
+            what: format!("no point of the study as it is now is in {}", means.out.display()),
+            help: "run its shards first, into this folder".into(),
+        });
+    }
+    folder.keep();
+    table.write()
+}
+
+/// Runs the selected points that have no outcome yet.
+fn run_selected(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    shared: &Shared,
+    listen: &mut dyn FnMut(Progress),
+) -> Result<ShardDone> {
+    let (mut done, mut failed, mut missing) = (0, 0, VecDeque::new());
+    for k in plan.selected() {
+        match point::earlier(plan, means, shared, k)? {
+            Some(outcome) => {
+                done += 1;
+                failed += usize::from(!outcome.done());
+            }
+            None => missing.push_back(k),
+        }
+    }
+    let total = done + missing.len();
     listen(Progress { done, total, outcome: None });
     let queue = &Mutex::new(missing);
     let (send, received) = mpsc::channel();
@@ -81,9 +145,8 @@ pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress
             match result {
                 Ok(outcome) => {
                     done += 1;
+                    failed += usize::from(!outcome.done());
                     listen(Progress { done, total, outcome: Some(&outcome) });
-                    let k = outcome.point;
-                    outcomes[k] = Some(outcome);
                 }
                 Err(error) => {
                     // what is wrong with the machine concerns all points
@@ -98,16 +161,11 @@ pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress
         Some(Error::Stopped { signal, .. }) => {
             let kept =
                 format!("kept {done} of {total} points in {}, the same command goes on", means.out.display());
-            return Err(Error::Stopped { signal, kept });
+            Err(Error::Stopped { signal, kept })
         }
-        Some(error) => return Err(error),
-        None => {}
+        Some(error) => Err(error),
+        None => Ok(ShardDone { points: total, failed }),
     }
-    let outcomes: Vec<PointOutcome> = outcomes.into_iter().flatten().collect();
-    let designed = plan.designed.min(outcomes.len());
-    let limits = table::limits(plan, &outcomes[designed..]);
-    table::write(plan, means, &limits, &outcomes)?;
-    Ok(StudyDone { outcomes, designed, limits })
 }
 
 /// Takes points from the queue until it is empty.

@@ -1,12 +1,14 @@
 //! A study that is ready to be run: its points, validated, and the runs of its reference.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::design::{StudyPoint, points, setting};
+use super::design::{DesignPoints, StudyPoint, setting};
 use super::file::{Field, Measure, Process, Study};
 use super::gauge::column_of;
+use super::selection::Selection;
 use crate::error::{Result, name_help};
 use crate::mesh;
 use crate::run::{Shared, read_scene};
@@ -22,12 +24,14 @@ pub struct StudyPlan {
     pub name: String,
     /// The scene.
     pub scene: PathBuf,
-    /// The design's points, then those of the reference.
-    pub(super) points: Vec<StudyPoint>,
-    /// Number of points in the design.
-    pub(super) designed: usize,
-    /// Digests of all that files decide of a point; none where more than files decides.
-    keys: Vec<Option<String>>,
+    /// Points that are checked and run.
+    pub selection: Selection,
+    /// Points of the design, before those of the reference.
+    design: DesignPoints,
+    /// Settings of all points for what is measured.
+    probes: Vec<String>,
+    /// Digests of all that files decide of the selected points; none where more than files decides.
+    keys: HashMap<usize, u64>,
     /// True if the mesher has a part in it.
     meshed: bool,
 }
@@ -36,13 +40,13 @@ pub struct StudyPlan {
 const MOST_REPEATS: usize = 10_000;
 
 impl StudyPlan {
-    /// Reads a study and checks the scene of every point, or of `only` one; nothing is meshed.
-    pub fn read(file: &Path, only: Option<usize>) -> Result<StudyPlan> {
-        StudyPlan::parse(file, text_of(file, "give the file of a study")?, only)
+    /// Reads a study and checks the scene of every selected point; nothing is meshed.
+    pub fn read(file: &Path, selection: Selection) -> Result<StudyPlan> {
+        StudyPlan::parse(file, text_of(file, "give the file of a study")?, selection)
     }
 
     /// The same for the text of a study; `file` is for messages and for the scene it names.
-    pub fn parse(file: &Path, text: String, only: Option<usize>) -> Result<StudyPlan> {
+    pub fn parse(file: &Path, text: String, selection: Selection) -> Result<StudyPlan> {
         let (study, source) = document::<Study>(file.into(), text, "a study", |_, _| Ok(()))?;
         let scene = source.folder().join(&study.scene);
         if !scene.exists() {
@@ -56,57 +60,80 @@ impl StudyPlan {
             let what = format!("{} runs of every point", study.repeat);
             return Err(source.error_at(&["repeat"], what, format!("{MOST_REPEATS} are enough")));
         }
-        let mut points = points(&study, &source)?;
-        let designed = points.len();
-        if let Some(reference) = &study.reference {
-            if !(reference.ratio > 1.0 && reference.ratio.is_finite()) {
-                let what = format!("a ratio of {}", reference.ratio);
+        let design = DesignPoints::new(&study, &source)?;
+        if let Some(ratio) = study.reference.as_ref().map(|reference| reference.ratio) {
+            if !(ratio > 1.0 && ratio.is_finite()) {
+                let what = format!("a ratio of {ratio}");
                 return Err(source.error_at(
                     &["reference", "ratio"],
                     what,
                     "every run is finer than the last",
                 ));
             }
-            for run in &reference.runs {
-                let mut settings = vec!["/output/fields=none".to_string()];
-                settings.extend(study.set.iter().chain(run).map(setting));
-                points.push(StudyPoint { values: vec![serde_json::Value::Null; study.axes.len()], settings });
-            }
         }
         let plain = read_scene(&scene, &[])?;
         check_measures(&study, &source, &plain)?;
-        for point in &mut points {
-            point.settings.extend(probes(&study, &plain));
-        }
-        let wanted = |k: usize| only.is_none_or(|only| only == k);
-        let keys = points.iter().enumerate().map(|(k, point)| match wanted(k) {
-            true => read_scene(&scene, &point.settings).map(|scene| key(&study, point, &scene)),
-            false => Ok(None),
-        });
-        let keys = keys.collect::<Result<Vec<Option<String>>>>()?;
+        let probes = probes(&study, &plain);
         let mut meshed = false;
         for part in plain.subdomains.values() {
             let old = |msh: &String| mesh::is_earlier_format(&plain.source.folder().join(msh));
             meshed |= part.geo.is_some() || part.msh.as_ref().is_some_and(|msh| old(msh).unwrap_or(false));
         }
-        Ok(StudyPlan { name: name(file), study, scene, points, designed, keys, meshed })
+        let keys = HashMap::new();
+        let mut plan = StudyPlan { name: name(file), study, scene, selection, design, probes, keys, meshed };
+        for k in plan.selected() {
+            let point = plan.point(k);
+            let scene = read_scene(&plan.scene, &point.settings)?;
+            plan.keys.extend(key(&plan.study, &point, &scene).map(|key| (k, key)));
+        }
+        Ok(plan)
     }
 
     /// Number of all points, those of the reference included.
     pub fn len(&self) -> usize {
-        self.points.len()
+        let references = self.study.reference.as_ref().map_or(0, |reference| reference.runs.len());
+        self.designed() + references
     }
 
     /// True without points.
     pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
+        self.len() == 0
+    }
+
+    /// Number of points in the design; those of the reference follow them.
+    pub(super) fn designed(&self) -> usize {
+        self.design.count
+    }
+
+    /// Numbers of the selected points.
+    pub(super) fn selected(&self) -> impl Iterator<Item = usize> + use<> {
+        self.selection.of(self.len())
+    }
+
+    /// A point of the design or of the reference.
+    pub(super) fn point(&self, point: usize) -> StudyPoint {
+        let study = &self.study;
+        let run = point.checked_sub(self.designed()).zip(study.reference.as_ref());
+        let mut point = match run {
+            None => self.design.point(study, point),
+            Some((run, reference)) => {
+                let mut settings = vec!["/output/fields=none".to_string()];
+                settings.extend(study.set.iter().chain(&reference.runs[run]).map(setting));
+                StudyPoint { values: vec![serde_json::Value::Null; study.axes.len()], settings }
+            }
+        };
+        point.settings.extend_from_slice(&self.probes);
+        point
     }
 
     /// Digest of all that decides a point that was checked, the mesher's version among it; none where more decides, so
     /// that an outcome is good once.
     pub(super) fn key(&self, shared: &Shared, point: usize) -> Result<Option<String>> {
-        let Some(key) = &self.keys[point] else { return Ok(None) };
-        Ok(Some(if self.meshed { format!("{key} gmsh {}", shared.mesher()?) } else { key.clone() }))
+        let Some(key) = self.keys.get(&point) else { return Ok(None) };
+        Ok(Some(match self.meshed {
+            true => format!("{key:016x} gmsh {}", shared.mesher()?),
+            false => format!("{key:016x}"),
+        }))
     }
 }
 
@@ -158,7 +185,7 @@ fn check_measures(study: &Study, source: &Source, scene: &Scene) -> Result<()> {
 }
 
 /// Settings, measures, the program's version, the scene's text and those of the files it names, with all they include.
-fn key(study: &Study, point: &StudyPoint, scene: &Scene) -> Option<String> {
+fn key(study: &Study, point: &StudyPoint, scene: &Scene) -> Option<u64> {
     let mut hash = Sha256::new();
     let mut add = |part: &[u8]| {
         hash.update((part.len() as u64).to_le_bytes()); // so that parts cannot run into each other
@@ -177,7 +204,7 @@ fn key(study: &Study, point: &StudyPoint, scene: &Scene) -> Option<String> {
             add(digest?.as_bytes());
         }
     }
-    Some(hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect())
+    Some(hash.finalize().iter().take(8).fold(0, |key, byte| key << 8 | u64::from(*byte)))
 }
 
 /// `geo/strip/study.json` is "strip_study".

@@ -46,16 +46,27 @@ impl StudyMeans {
     }
 }
 
-/// The outcome of a point that was run before, if nothing that decides it has changed.
+/// The outcome of a point that was run before, if nothing that files decide of it has changed.
+pub(super) fn kept(
+    plan: &StudyPlan,
+    means: &StudyMeans,
+    shared: &Shared,
+    point: usize,
+) -> Result<Option<PointOutcome>> {
+    let Some(outcome) = read(&means.file(point)) else { return Ok(None) };
+    let key = plan.key(shared, point)?.unwrap_or_default();
+    let same = outcome.point == point && outcome.key == key && outcome.settings == plan.point(point).settings;
+    Ok(same.then_some(outcome))
+}
+
+/// The same, if nothing at all that decides it has changed: it need not be run again.
 pub(super) fn earlier(
     plan: &StudyPlan,
     means: &StudyMeans,
     shared: &Shared,
     point: usize,
-) -> Option<PointOutcome> {
-    let text = std::fs::read_to_string(means.file(point)).ok()?;
-    let outcome: PointOutcome = serde_json::from_str(&text).ok()?;
-    (outcome.key == plan.key(shared, point).ok()??).then_some(outcome)
+) -> Result<Option<PointOutcome>> {
+    Ok(kept(plan, means, shared, point)?.filter(|outcome| !outcome.key.is_empty()))
 }
 
 /// Runs a point as often as the study says and keeps its outcome.
@@ -96,7 +107,7 @@ pub(super) fn run_once(
     shared: &Shared,
     point: usize,
 ) -> Result<PointOutcome> {
-    let settings = plan.points[point].settings.clone();
+    let settings = plan.point(point).settings;
     let key = plan.key(shared, point)?.unwrap_or_default();
     let options = Options {
         scene: plan.scene.clone(),

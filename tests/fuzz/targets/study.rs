@@ -5,11 +5,11 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
-use midplane::study::StudyPlan;
+use midplane::study::{Selection, StudyPlan};
 
 fuzz_target!(|text: &str| {
     let file = PathBuf::from(std::env::var_os("FUZZ_FOLDER").unwrap_or_default()).join("study.json");
-    if let Ok(plan) = StudyPlan::parse(&file, text.into(), None) {
+    if let Ok(plan) = StudyPlan::parse(&file, text.into(), Selection::All) {
         assert!(!plan.is_empty());
     }
 });
