@@ -227,6 +227,9 @@ kill-test: $(MIDPLANE)  ## 200 kills, 60 signals, 20 full disks, 50 pairs of run
 kill-test-quick: $(MIDPLANE)  ## a few of each
 	python3 pipeline/kill_test.py $(MIDPLANE) -o results/kill-test-quick --kills 24 --signals 12 --disks 5 --pairs 6
 
+cluster-test: $(MIDPLANE)  ## a study in shards, as a Slurm array (by a stand-in) and by Snakemake if `python` has it, compared with one process
+	$(or $(python),python3) pipeline/cluster_test.py $(MIDPLANE) -o results/cluster-test
+
 bench-growth: $(MIDPLANE)  ## what 10 000 increments write, and the price of checkpoints, five minutes
 	python3 benches/growth.py $(MIDPLANE)
 
@@ -351,4 +354,4 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all notebooks bench-walls wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+.PHONY: all notebooks bench-walls wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick cluster-test bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
