@@ -12,6 +12,7 @@ mod constraint;
 mod continuum;
 mod cut;
 mod dense;
+mod eliminate;
 mod equal;
 mod evaluation;
 mod floating;

@@ -211,7 +211,7 @@ fn limits(plan: &StudyPlan, references: &[PointOutcome]) -> Limits {
 
 /// Beginning of a file that was written as study.json.
 #[derive(Deserialize)]
-struct Origin {
+struct RowSource {
     program: String,
 }
 
@@ -219,7 +219,7 @@ struct Origin {
 pub(super) fn check_own(folder: &Path) -> Result<()> {
     let open = |name: &str| File::open(folder.join(name)).ok();
     let is_json = |file: File| {
-        let origin: serde_json::Result<Origin> = serde_json::from_reader(BufReader::new(file));
+        let origin: serde_json::Result<RowSource> = serde_json::from_reader(BufReader::new(file));
         origin.is_ok_and(|origin| origin.program == env!("CARGO_PKG_NAME"))
     };
     let is_csv = |mut file: File| {
