@@ -209,9 +209,9 @@ fn limits(plan: &StudyPlan, references: &[PointOutcome]) -> Limits {
     plan.study.measures.iter().filter_map(of).collect()
 }
 
-/// Beginning of a file that was written as study.json.
+/// The program that a file written as study.json names.
 #[derive(Deserialize)]
-struct RowSource {
+struct ProgramName {
     program: String,
 }
 
@@ -219,7 +219,7 @@ struct RowSource {
 pub(super) fn check_own(folder: &Path) -> Result<()> {
     let open = |name: &str| File::open(folder.join(name)).ok();
     let is_json = |file: File| {
-        let origin: serde_json::Result<RowSource> = serde_json::from_reader(BufReader::new(file));
+        let origin: serde_json::Result<ProgramName> = serde_json::from_reader(BufReader::new(file));
         origin.is_ok_and(|origin| origin.program == env!("CARGO_PKG_NAME"))
     };
     let is_csv = |mut file: File| {
