@@ -1,13 +1,25 @@
-//! study.csv: its head and its rows.
+//! study.csv: a row per point.
 
 use serde_json::Value;
 
 use super::outcome::PointOutcome;
-use super::table::Table;
+use super::table::StudyTable;
+use crate::error::{Error, Result};
+use crate::files::write_whole_by;
 use crate::output::csv_field;
 
+/// Writes the file.
+pub(super) fn write(table: &StudyTable) -> Result<()> {
+    let path = table.means.out.join("study.csv");
+    write_whole_by(&path, |file| {
+        let mut write = |line: String| file.write_all(line.as_bytes()).map_err(Error::io("write", &path));
+        write(head(table))?;
+        table.outcomes().try_for_each(|outcome| write(row(table, &outcome?)))
+    })
+}
+
 /// Names of the columns.
-pub(super) fn head(table: &Table) -> String {
+fn head(table: &StudyTable) -> String {
     let study = &table.plan.study;
     let mut head = vec!["point".to_string()];
     head.extend(study.axes.keys().cloned());
@@ -26,7 +38,7 @@ pub(super) fn head(table: &Table) -> String {
 }
 
 /// A point.
-pub(super) fn row(table: &Table, outcome: &PointOutcome) -> String {
+fn row(table: &StudyTable, outcome: &PointOutcome) -> String {
     let mut row = vec![outcome.point.to_string()];
     row.extend(table.plan.point(outcome.point).values.iter().map(shown));
     row.push(outcome.status.clone());

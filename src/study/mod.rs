@@ -15,6 +15,7 @@ mod csv;
 mod design;
 mod file;
 mod gauge;
+mod json;
 mod outcome;
 mod plan;
 mod point;
@@ -29,7 +30,7 @@ pub use plan::StudyPlan;
 pub use point::StudyMeans;
 pub use reference::{FLOOR, Limit};
 pub use selection::{Selection, Shard};
-pub use table::Limits;
+pub use table::{Limits, StudyDone};
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -39,7 +40,7 @@ use crate::error::{At, Error, Result};
 use crate::history::{memory, processor};
 use crate::output::write_json;
 use crate::run::{Folder, Shared};
-use table::Table;
+use table::StudyTable;
 
 /// Progress of a study.
 #[derive(Debug)]
@@ -50,21 +51,6 @@ pub struct Progress<'a> {
     pub total: usize,
     /// The last of them; absent when the study starts or goes on.
     pub outcome: Option<&'a PointOutcome>,
-}
-
-/// Outcome of a study.
-#[derive(Debug)]
-pub struct StudyDone {
-    /// Number of points in the table: those of the design that have an outcome.
-    pub points: usize,
-    /// Number of those that failed.
-    pub failed: usize,
-    /// Number of points without an outcome, those of the reference included.
-    pub missing: usize,
-    /// The first of them.
-    pub first_missing: Option<usize>,
-    /// Reference of every measure.
-    pub limits: Limits,
 }
 
 /// Outcome of a shard.
@@ -83,7 +69,7 @@ pub fn run(plan: &StudyPlan, means: &StudyMeans, listen: &mut dyn FnMut(Progress
     folder.keep();
     let shared = Shared::new(&means.options, &means.meshes());
     run_selected(plan, means, &shared, listen)?;
-    Table::survey(plan, means, &shared)?.write()
+    write(StudyTable::survey(plan, means, &shared)?)
 }
 
 /// Runs every point of the plan's shard that has no outcome yet. Other processes may run other shards into the same folder.
@@ -101,7 +87,7 @@ pub fn collect(plan: &StudyPlan, means: &StudyMeans) -> Result<StudyDone> {
     let mut folder = Folder::open(&means.out)?;
     table::check_own(&means.out)?;
     let shared = Shared::new(&means.options, &means.meshes());
-    let table = Table::survey(plan, means, &shared)?;
+    let table = StudyTable::survey(plan, means, &shared)?;
     if table.is_empty() {
         return Err(Error::Text {
             at: Box::new(At { key: "--collect".into(), ..Default::default() }),
@@ -110,7 +96,14 @@ pub fn collect(plan: &StudyPlan, means: &StudyMeans) -> Result<StudyDone> {
         });
     }
     folder.keep();
-    table.write()
+    write(table)
+}
+
+/// Writes both files.
+fn write(table: StudyTable) -> Result<StudyDone> {
+    json::write(&table)?;
+    csv::write(&table)?;
+    Ok(table.done())
 }
 
 /// Runs the selected points that have no outcome yet.

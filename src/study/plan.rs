@@ -61,9 +61,8 @@ impl StudyPlan {
             return Err(source.error_at(&["repeat"], what, format!("{MOST_REPEATS} are enough")));
         }
         let design = DesignPoints::new(&study, &source)?;
-        if let Some(ratio) = study.reference.as_ref().map(|reference| reference.ratio)
-            && !(ratio > 1.0 && ratio.is_finite())
-        {
+        let ratio = study.reference.as_ref().map(|reference| reference.ratio);
+        if let Some(ratio) = ratio.filter(|ratio| !(*ratio > 1.0 && ratio.is_finite())) {
             let what = format!("a ratio of {ratio}");
             return Err(source.error_at(&["reference", "ratio"], what, "every run is finer than the last"));
         }
