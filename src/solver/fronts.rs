@@ -25,6 +25,8 @@ pub struct FrontWork {
     pub operations: f64,
     /// Numbers that all fronts hold.
     pub entries: usize,
+    /// Number of unknowns.
+    pub unknowns: usize,
 }
 
 /// A matrix of dense elements and single entries.
@@ -182,6 +184,7 @@ impl Fronts {
         FrontWork {
             operations: self.fronts.iter().map(of).sum(),
             entries: self.fronts.iter().map(|front| front.rows.len().pow(2)).sum(),
+            unknowns: self.fronts.iter().map(|front| front.pivots).sum(),
         }
     }
 }

@@ -28,6 +28,8 @@ use crate::sparse::Csr;
 
 /// Rounding of one term of the residual, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Unknowns that are worth a thread.
+const SIDE_BY_SIDE: usize = 2048;
 
 /// The form of condensed bodies under one set of supports; all interfaces respond.
 #[derive(Debug)]
@@ -35,8 +37,9 @@ pub struct JoinedSubdomains<'a> {
     interiors: Interiors<'a>,
     interfaces: &'a [InterfaceOperator],
     active: Vec<usize>,
-    /// G of every interface on the separator.
+    /// G of every interface on the separator, and Gᵀ of all.
     jumps: Vec<Csr>,
+    transposed: Csr,
     springs: Vec<SpringElement>,
     /// Supports on the separator.
     held: Vec<bool>,
@@ -59,8 +62,9 @@ impl<'a> JoinedSubdomains<'a> {
         constrained: &[bool],
     ) -> JoinedSubdomains<'a> {
         let size = continuum.separator();
-        let (jumps, springs) =
+        let (jumps, springs): (Vec<Csr>, Vec<SpringElement>) =
             interfaces.par_iter().map(|interface| springs_of(continuum, interface)).unzip();
+        let transposed = Csr::stacked(&jumps).transposed();
         let mut held = vec![false; size];
         for (place, constrained) in continuum.places.iter().zip(constrained) {
             if let Some(place) = place {
@@ -82,6 +86,7 @@ impl<'a> JoinedSubdomains<'a> {
             interfaces,
             active: (0..interfaces.len()).collect(),
             jumps,
+            transposed,
             springs,
             held,
             floats,
@@ -129,10 +134,18 @@ impl<'a> JoinedSubdomains<'a> {
         f.iter_mut().zip(products.iter().flatten()).for_each(|(f, product)| *f += product);
     }
 
+    /// Gᵀ q of all interfaces.
+    fn nodal(&self, q: &[f64]) -> Vec<f64> {
+        let at = |i: usize| {
+            let (columns, values) = self.transposed.row(i);
+            columns.iter().zip(values).map(|(&j, value)| value * q[j]).sum()
+        };
+        (0..self.held.len()).into_par_iter().with_min_len(SIDE_BY_SIDE).map(at).collect()
+    }
+
     /// S x + Gᵀ q, and Gᵀ q.
     fn internal(&self, x: &[f64], forces: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
-        let mut interfaces = vec![0.0; x.len()];
-        self.jumps.iter().zip(forces).for_each(|(jump, q)| jump.add_transposed(q, &mut interfaces));
+        let interfaces = self.nodal(&forces.concat());
         let mut internal = interfaces.clone();
         self.add_bodies(x, &mut internal);
         (internal, interfaces)
@@ -294,9 +307,7 @@ impl Form for JoinedSubdomains<'_> {
     }
 
     fn weights(&self, of_coefficients: &[Vec<f64>]) -> Vec<f64> {
-        let mut weights = vec![0.0; self.held.len()];
-        self.jumps.iter().zip(of_coefficients).for_each(|(jump, c)| jump.add_transposed(c, &mut weights));
-        weights
+        self.nodal(&of_coefficients.concat())
     }
 
     fn recover(&self, x: &[f64], forces: &[Vec<f64>], force: &[f64], prescribed: &[f64]) -> NodalSolution {

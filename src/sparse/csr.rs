@@ -37,6 +37,19 @@ impl Csr {
         csr
     }
 
+    /// Matrices of one width, one below the other.
+    pub fn stacked(matrices: &[Csr]) -> Csr {
+        let width = matrices.first().map_or(0, |first| first.width);
+        let mut all = Csr { offsets: vec![0], width, ..Csr::default() };
+        for matrix in matrices {
+            let end = all.columns.len();
+            all.offsets.extend(matrix.offsets[1..].iter().map(|offset| end + offset));
+            all.columns.extend_from_slice(&matrix.columns);
+            all.values.extend_from_slice(&matrix.values);
+        }
+        all
+    }
+
     /// The matrix without the entries that `keep`, asked with row and value, does not want.
     pub fn retain(mut self, keep: impl Fn(usize, f64) -> bool) -> Csr {
         let mut kept = 0;
@@ -161,5 +174,8 @@ mod tests {
         a.add_transposed(&[1.0, 10.0], &mut y);
         assert_eq!(y, [30.0, 2.0, 40.0]);
         assert_eq!(a.transposed().multiply(&[1.0, 10.0]), y);
+        let twice = Csr::stacked(&[a.clone(), a]);
+        assert_eq!(twice.multiply(&[1.0, 10.0, 100.0]), [20.0, 403.0, 20.0, 403.0]);
+        assert_eq!(twice.transposed().multiply(&[1.0, 0.0, 0.0, 10.0]), y);
     }
 }

@@ -21,8 +21,8 @@ const ITERATION: f64 = 5e7;
 /// Of the condensed system an iteration factors what is not intact, a third of the points where much slides.
 const BY_UNKNOWN_SQUARED: f64 = 200.0;
 const FACTORED: f64 = 0.2;
-/// An operation of factors by fronts, a number that they hold, and what an iteration takes beside them.
-const FRONTS: [f64; 3] = [0.8, 80.0, 3e7];
+/// An operation of factors by fronts, a number that they hold, an unknown, and what an iteration takes beside them.
+const FRONTS: [f64; 4] = [0.8, 80.0, 2.6e4, 3e7];
 
 /// K_N h/E at which displacements of bodies have the digits of the forces between them: rounding is 1e-16 times it, or over it.
 const EVEN: std::ops::RangeInclusive<f64> = 1e-5..=1e4;
@@ -77,7 +77,12 @@ pub(in crate::history) fn choose(
         let separator = continuum.separator_of(b).len() as f64;
         2.3 * separator.powi(3) // its factor, and flexibilities of as many unknowns
     };
-    let fronts = |work: FrontWork| FRONTS[0] * work.operations + FRONTS[1] * work.entries as f64 + FRONTS[2];
+    let fronts = |work: FrontWork| {
+        FRONTS[0] * work.operations
+            + FRONTS[1] * work.entries as f64
+            + FRONTS[2] * work.unknowns as f64
+            + FRONTS[3]
+    };
     let every = iterations * (DOF * dofs as f64 + ITERATION);
     let (_, distinct) = continuum.distinct();
     let bodies = continuum.operations() + CONDENSED_DOF * distinct as f64 + every;
@@ -87,12 +92,13 @@ pub(in crate::history) fn choose(
         false => FloatingSubdomains::work(continuum, &model.interfaces),
     };
     let flexibilities: f64 = if joined { 0.0 } else { (0..continuum.subdomains()).map(subdomains).sum() };
+    let alone = FrontWork { operations: continuum.operations(), entries: 0, unknowns: dofs };
     let mut estimate = Operations {
         condensed: bodies
             + sets * (base + 2.0 * coefficients.powi(3))
             + iterations * (BY_UNKNOWN_SQUARED * coefficients.powi(2) + FACTORED * coefficients.powi(3)),
         blocks: bodies + sets * flexibilities + iterations * fronts(of_blocks),
-        plain: every + iterations * fronts(FrontWork { operations: continuum.operations(), entries: 0 }),
+        plain: every + iterations * fronts(alone),
     };
     if estimate.plain < estimate.blocks.min(estimate.condensed) {
         // the bodies alone are the least: interfaces couple whole sides
