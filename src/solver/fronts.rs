@@ -15,7 +15,7 @@ use super::graph::{Graph, NONE, elimination_tree, inverse};
 use super::ordering::dissected;
 
 /// Work of a front beside its elimination [multiplications and additions]: per entry that is moved, and for being one.
-const MOVED: f64 = 8.0;
+const MOVED: f64 = 50.0;
 const FRONT: f64 = 4e4;
 
 /// What a factorisation by fronts takes.
