@@ -21,7 +21,7 @@ struct Owners {
     parts: Vec<u32>,
 }
 
-/// What of every part's members a group has, by number of the part.
+/// Members of a group in every part, by number of the part.
 type Dealt = BTreeMap<u32, Group>;
 
 impl Mesh {

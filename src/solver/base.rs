@@ -145,10 +145,6 @@ impl Factored for Base<'_> {
         }
     }
 
-    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
-        self.add_moved(u, scale);
-    }
-
     fn apply(&self, b: &mut [Vec<f64>]) {
         self.continuum.solve(&self.condensation, b, |x| self.solve_separator(x));
     }

@@ -1,4 +1,4 @@
-//! What the condensation of all bodies leaves under one set of supports.
+//! All bodies condensed under one set of supports.
 
 use std::sync::Arc;
 

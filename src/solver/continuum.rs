@@ -274,6 +274,13 @@ impl Continuum {
         });
     }
 
+    /// f − K u of bodies alone, from differences.
+    pub(super) fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
+        let mut force = vec![0.0; f.len()];
+        self.add_product(u, &mut force);
+        f.iter().zip(force).map(|(f, force)| f - force).collect()
+    }
+
     /// f += |K| |u|, from differences; of a turned body |R| times the sizes in the axes of the one it is like.
     pub(super) fn add_absolute_product(&self, u: &[f64], f: &mut [f64]) {
         self.add(u, f, Rotation::turn_sizes, |subdomain, u, f| {

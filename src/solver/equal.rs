@@ -85,7 +85,7 @@ impl Rotation {
     }
 }
 
-/// What equal bodies have in common without any geometry.
+/// Properties that equal bodies share, geometry aside.
 #[derive(PartialEq, Eq, Hash)]
 struct Kind<'a> {
     shapes: Vec<u8>,

@@ -92,7 +92,7 @@ impl<'a> FloatingSubdomains<'a> {
         Numbering::new(continuum, interfaces).unknowns
     }
 
-    /// What a factorisation takes.
+    /// Work of a factorisation.
     pub fn work(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> FrontWork {
         Fronts::new(&layout(continuum, interfaces)).work()
     }

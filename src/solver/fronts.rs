@@ -18,10 +18,10 @@ use super::ordering::dissected;
 const MOVED: f64 = 50.0;
 const FRONT: f64 = 4e4;
 
-/// What a factorisation by fronts takes.
+/// Work of a factorisation by fronts.
 #[derive(Debug, Clone, Copy)]
 pub struct FrontWork {
-    /// Multiplications and additions, with what moving entries takes.
+    /// Multiplications and additions.
     pub operations: f64,
     /// Numbers that all fronts hold.
     pub entries: usize,
@@ -77,10 +77,14 @@ struct Supernode {
     level: usize,
 }
 
-/// Work of a front with so many pivots and rows in its border.
+/// Multiplications and additions of a front with so many pivots and rows in its border.
+fn operations(pivots: f64, border: f64) -> f64 {
+    pivots * (2.0 / 3.0 * pivots * pivots + 2.0 * border * (pivots + border))
+}
+
+/// The same with all that comes beside them.
 fn work(pivots: f64, border: f64) -> f64 {
-    let rows = pivots + border;
-    pivots * (2.0 / 3.0 * pivots * pivots + 2.0 * border * rows) + MOVED * rows * rows + FRONT
+    operations(pivots, border) + MOVED * (pivots + border).powi(2) + FRONT
 }
 
 impl Fronts {
@@ -178,9 +182,9 @@ impl Fronts {
         Fronts { fronts, levels }
     }
 
-    /// What a factorisation takes.
+    /// Work of a factorisation.
     pub(super) fn work(&self) -> FrontWork {
-        let of = |front: &Front| work(front.pivots as f64, (front.rows.len() - front.pivots) as f64);
+        let of = |front: &Front| operations(front.pivots as f64, (front.rows.len() - front.pivots) as f64);
         FrontWork {
             operations: self.fronts.iter().map(of).sum(),
             entries: self.fronts.iter().map(|front| front.rows.len().pow(2)).sum(),

@@ -6,8 +6,8 @@
 //! ```
 //!
 //! S = diag(S₁, S₂, …) and f̂ are what the interiors leave on these nodes. A brick has fewer nodes on one of its sides than
-//! interfaces around it have jumps: nested dissection cuts this system by half the unknowns of the one on jumps (`floating`), with a
-//! fifth of the work. It ends where `primal` ends, at ε K_N h/E; stiff interfaces need their jumps as unknowns.
+//! interfaces around it have jumps: a factor of this system takes half the operations of one on jumps (`floating`). It ends where
+//! `primal` ends, at ε K_N h/E; stiff interfaces need their jumps as unknowns.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -21,7 +21,7 @@ use super::interiors::Interiors;
 use super::lower::{symmetric_product, whole};
 use super::lu::SparseLu;
 use super::refine::Factored;
-use super::springs::SpringElement;
+use super::springs::SpringElements;
 use super::{Condensation, Continuum, ForceScale, Form, NodalSolution};
 use crate::assembly::{InterfaceOperator, InterfaceTangent};
 use crate::sparse::Csr;
@@ -40,7 +40,7 @@ pub struct JoinedSubdomains<'a> {
     /// G of every interface on the separator, and Gᵀ of all.
     jumps: Vec<Csr>,
     transposed: Csr,
-    springs: Vec<SpringElement>,
+    springs: SpringElements,
     /// Supports on the separator.
     held: Vec<bool>,
     /// Bodies that nothing holds inside: S of these knows no difference between x and x + a translation.
@@ -48,8 +48,6 @@ pub struct JoinedSubdomains<'a> {
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
     lu: SparseLu,
-    /// Values of the tangents that are factored.
-    factored: Vec<Vec<f64>>,
     force_scale: ForceScale,
 }
 
@@ -62,8 +60,8 @@ impl<'a> JoinedSubdomains<'a> {
         constrained: &[bool],
     ) -> JoinedSubdomains<'a> {
         let size = continuum.separator();
-        let (jumps, springs): (Vec<Csr>, Vec<SpringElement>) =
-            interfaces.par_iter().map(|interface| springs_of(continuum, interface)).unzip();
+        let jumps = jumps(continuum, interfaces);
+        let springs = SpringElements::new(jumps.par_iter());
         let transposed = Csr::stacked(&jumps).transposed();
         let mut held = vec![false; size];
         for (place, constrained) in continuum.places.iter().zip(constrained) {
@@ -92,7 +90,6 @@ impl<'a> JoinedSubdomains<'a> {
             floats,
             scale,
             lu: SparseLu::default(),
-            factored: Vec::new(),
             force_scale: ForceScale::default(),
         }
     }
@@ -102,10 +99,10 @@ impl<'a> JoinedSubdomains<'a> {
         continuum.separator()
     }
 
-    /// What a factorisation takes.
+    /// Work of a factorisation.
     pub fn work(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> FrontWork {
-        let springs = interfaces.par_iter().map(|interface| springs_of(continuum, interface).1.unknowns);
-        Fronts::new(&layout(continuum, springs.collect())).work()
+        let springs = SpringElements::new(jumps(continuum, interfaces).par_iter());
+        Fronts::new(&layout(continuum, springs.unknowns())).work()
     }
 
     /// f += S x, by the displacements against those of the body's first node.
@@ -176,15 +173,13 @@ impl<'a> JoinedSubdomains<'a> {
     }
 }
 
-/// G of an interface on the separator, and its springs.
-fn springs_of(continuum: &Continuum, interface: &InterfaceOperator) -> (Csr, SpringElement) {
+/// G of every interface on the separator.
+fn jumps(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> Vec<Csr> {
     let place = |dof: usize| continuum.places[dof].map_or(0, |place| place as usize);
-    let jump = interface.numbered(place, continuum.separator());
-    let springs = SpringElement::new(&jump);
-    (jump, springs)
+    interfaces.par_iter().map(|interface| interface.numbered(place, continuum.separator())).collect()
 }
 
-/// Where the Jacobian has its entries: an element of every body and of every interface.
+/// Places of the Jacobian's entries: an element of every body and of every interface.
 fn layout(continuum: &Continuum, springs: Vec<Vec<u32>>) -> Layout {
     let (c, size) = (continuum.components(), continuum.separator());
     let mut coordinates = vec![0.0; size];
@@ -257,44 +252,22 @@ impl Form for JoinedSubdomains<'_> {
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64 {
         let mut sizes: Vec<f64> = target.iter().map(|b| b.abs()).collect();
         self.add_body_sizes(x, &mut sizes);
-        let mut all = squares(&sizes);
-        for (jump, tangent) in self.jumps.iter().zip(tangents) {
-            let sum = |i: usize| {
-                let (places, values) = jump.row(i);
-                places.iter().zip(values).map(|(&place, value)| (value * x[place]).abs()).sum::<f64>()
-            };
-            let jumps: Vec<f64> = (0..jump.rows()).map(sum).collect();
-            for i in 0..jump.rows() {
-                let (columns, values) = tangent.matrix.row(i);
-                let force = columns.iter().zip(values).map(|(&j, value)| value.abs() * jumps[j]).sum::<f64>();
-                all += force * force;
-            }
-        }
+        let all = squares(&sizes) + self.springs.squares(&self.active, tangents, x);
         let one = vec![1.0; x.len()];
         let per_force = self.error(&one, x, forces, target) / (x.len() as f64).sqrt();
         ROUNDING * all.sqrt() * per_force
     }
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
-        let first = !self.lu.is_planned();
         let mut elements = vec![None; self.interiors.continuum.subdomains()];
-        if first {
-            let springs = self.springs.iter().map(|springs| springs.unknowns.clone()).collect();
-            let mut layout = layout(self.interiors.continuum, springs);
+        if !self.lu.is_planned() {
+            let mut layout = layout(self.interiors.continuum, self.springs.unknowns());
             layout.entries = self.held_places().map(|k| (k as u32, k as u32)).collect();
             let diagonal = vec![self.scale; layout.entries.len()];
             self.lu.plan(layout, diagonal);
             elements = self.bodies();
-            self.factored = vec![Vec::new(); tangents.len()];
         }
-        let renew = |((tangent, springs), factored): ((&InterfaceTangent, &SpringElement), &mut Vec<f64>)| {
-            (*factored != tangent.matrix.values).then(|| {
-                factored.clone_from(&tangent.matrix.values);
-                Arc::new(springs.element(&tangent.matrix, |k| self.held[k]))
-            })
-        };
-        let pairs = tangents.par_iter().zip(&self.springs).zip(&mut self.factored);
-        elements.par_extend(pairs.map(renew));
+        elements.extend(self.springs.renewed(&self.active, tangents, &self.held));
         self.lu.factor(elements)
     }
 

@@ -76,8 +76,11 @@ impl Factored for Linear<'_> {
         }
     }
 
-    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
-        self.total.add_absolute_product(self.system.pattern, u, scale);
+    fn scales(&self, u: &[f64], f: Vec<f64>) -> [Vec<f64>; 2] {
+        let mut scales = [f.clone(), f];
+        self.total.add_absolute_product(self.system.pattern, u, &mut scales[0]);
+        self.add_moved(u, &mut scales[1]);
+        scales
     }
 
     fn apply(&self, b: &mut [Vec<f64>]) {

@@ -89,13 +89,7 @@ impl Factored for FloatingModes<'_> {
     }
 
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
-        let mut force = vec![0.0; f.len()];
-        self.continuum.add_product(u, &mut force);
-        f.iter().zip(force).map(|(f, force)| f - force).collect()
-    }
-
-    fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
-        self.add_moved(u, scale);
+        self.continuum.residual(f, u)
     }
 
     fn add_moved(&self, u: &[f64], scale: &mut [f64]) {

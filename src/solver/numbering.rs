@@ -36,7 +36,7 @@ impl Numbering {
     }
 }
 
-/// Where the Jacobian has its entries: an element of every body, and the diagonal of the jumps. The motions of a body come
+/// Places of the Jacobian's entries: an element of every body, and the diagonal of the jumps. The motions of a body come
 /// with the last of its interfaces.
 pub(super) fn layout(continuum: &Continuum, interfaces: &[InterfaceOperator]) -> Layout {
     let Numbering { first, of, starts, unknowns } = Numbering::new(continuum, interfaces);

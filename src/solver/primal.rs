@@ -7,14 +7,12 @@
 //! The independent check of the condensed form, and the way for interfaces whose dense flexibility would not fit. Its accuracy
 //! ends at ε K_N h/E, because u_B − u_A is taken before it is multiplied by K_N.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 
 use super::fronts::{FrontWork, Fronts, Layout};
 use super::linear::tractions;
 use super::lu::SparseLu;
-use super::springs::SpringElement;
+use super::springs::SpringElements;
 use super::{ForceScale, Form, NodalSolution};
 use crate::assembly::{InterfaceOperator, InterfaceTangent, Pattern, Symmetric};
 
@@ -38,10 +36,8 @@ pub struct Primal<'a> {
     /// Size of the continuum's stiffness: scales the equations of held dofs.
     scale: f64,
     force_scale: ForceScale,
-    springs: Vec<SpringElement>,
+    springs: SpringElements,
     lu: SparseLu,
-    /// Values of the tangents that are factored.
-    factored: Vec<Vec<f64>>,
 }
 
 impl<'a> Primal<'a> {
@@ -59,7 +55,7 @@ impl<'a> Primal<'a> {
         let (active, constrained) = (active.to_vec(), constrained.to_vec());
         let mut responds = vec![false; interfaces.len()];
         active.iter().for_each(|&k| responds[k] = true);
-        let springs = interfaces.par_iter().map(|interface| SpringElement::new(interface.jump())).collect();
+        let springs = SpringElements::new(interfaces.par_iter().map(InterfaceOperator::jump));
         Primal {
             interfaces,
             active,
@@ -72,17 +68,16 @@ impl<'a> Primal<'a> {
             scale,
             springs,
             lu: SparseLu::default(),
-            factored: Vec::new(),
             force_scale: ForceScale::default(),
         }
     }
 
-    /// What a factorisation takes.
+    /// Work of a factorisation.
     pub fn work(pattern: &Pattern, coordinates: Vec<f64>, interfaces: &[InterfaceOperator]) -> FrontWork {
-        let springs = interfaces.par_iter().map(|interface| SpringElement::new(interface.jump()).unknowns);
+        let springs = SpringElements::new(interfaces.par_iter().map(InterfaceOperator::jump));
         let pairs = |j: usize| pattern.rows[pattern.column(j)].iter().map(move |&i| (i, j as u32));
         let entries = (0..pattern.size()).flat_map(pairs).collect();
-        Fronts::new(&layout(pattern, coordinates, (springs.collect(), entries))).work()
+        Fronts::new(&layout(pattern, coordinates, (springs.unknowns(), entries))).work()
     }
 
     fn passive(&self) -> impl Iterator<Item = usize> + '_ {
@@ -128,7 +123,7 @@ impl<'a> Primal<'a> {
     }
 }
 
-/// Where the Jacobian has its entries: an element of every interface, and the bodies' as they are.
+/// Places of the Jacobian's entries: an element of every interface, and the bodies' as they are.
 fn layout(
     pattern: &Pattern,
     coordinates: Vec<f64>,
@@ -190,52 +185,28 @@ impl Form for Primal<'_> {
     fn rounding(&self, x: &[f64], forces: &[Vec<f64>], target: &[f64], tangents: &[InterfaceTangent]) -> f64 {
         let mut sizes: Vec<f64> = target.iter().map(|b| b.abs()).collect();
         self.continuum.add_absolute_product(self.pattern, x, &mut sizes);
-        let mut squares = sizes.iter().map(|size| size * size).sum::<f64>();
-        for (&k, tangent) in self.active.iter().zip(tangents) {
-            let interface = &self.interfaces[k];
-            let sum = |i: usize| {
-                let (dofs, values) = interface.row(i);
-                dofs.iter().zip(values).map(|(&dof, value)| (value * x[dof]).abs()).sum::<f64>()
-            };
-            let jumps: Vec<f64> = (0..interface.size()).map(sum).collect();
-            for i in 0..interface.size() {
-                let (columns, values) = tangent.matrix.row(i);
-                let force = columns.iter().zip(values).map(|(&j, value)| value.abs() * jumps[j]).sum::<f64>();
-                squares += force * force;
-            }
-        }
+        let squares = sizes.iter().map(|size| size * size).sum::<f64>()
+            + self.springs.squares(&self.active, tangents, x);
         let one = vec![1.0; x.len()];
         let per_force = self.error(&one, x, forces, target) / (x.len() as f64).sqrt();
         ROUNDING * squares.sqrt() * per_force
     }
 
     fn factor(&mut self, tangents: &[InterfaceTangent]) -> bool {
-        let mut elements = vec![None; self.springs.len()];
-        let element = |k: usize, tangent: &InterfaceTangent| {
-            Arc::new(self.springs[k].element(&tangent.matrix, |dof| self.constrained[dof]))
-        };
-        let first = !self.lu.is_planned();
-        if first {
-            for k in self.passive() {
+        let mut elements = self.springs.renewed(&self.active, tangents, &self.constrained);
+        if !self.lu.is_planned() {
+            let passive: Vec<usize> = self.passive().collect();
+            let constant = |&k: &usize| {
                 let mut tangent = InterfaceTangent::new(&self.interfaces[k]);
                 tangent.fill(&self.interfaces[k], &self.stiffness[k]);
-                elements[k] = Some(element(k, &tangent));
-            }
-            self.factored = vec![Vec::new(); tangents.len()];
-        }
-        let changed = tangents.par_iter().zip(&mut self.factored).zip(&self.active);
-        let renew = |((tangent, factored), &k): ((&InterfaceTangent, &mut Vec<f64>), &usize)| {
-            (*factored != tangent.matrix.values).then(|| {
-                factored.clone_from(&tangent.matrix.values);
-                (k, element(k, tangent))
-            })
-        };
-        let renewed: Vec<_> = changed.filter_map(renew).collect();
-        renewed.into_iter().for_each(|(k, element)| elements[k] = Some(element));
-        if first {
+                tangent
+            };
+            let constant: Vec<InterfaceTangent> = passive.iter().map(constant).collect();
+            let mut springs = self.springs.renewed(&passive, &constant, &self.constrained);
+            passive.iter().for_each(|&k| elements[k] = springs[k].take());
             let (entries, values) = self.entries();
-            let springs = self.springs.iter().map(|springs| springs.unknowns.clone()).collect();
-            self.lu.plan(layout(self.pattern, self.coordinates.clone(), (springs, entries)), values);
+            let unknowns = (self.springs.unknowns(), entries);
+            self.lu.plan(layout(self.pattern, self.coordinates.clone(), unknowns), values);
         }
         self.lu.factor(elements)
     }

@@ -33,10 +33,14 @@ pub trait Factored {
     fn constrained(&self) -> &[bool];
     /// f − A u.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64>;
-    /// scale += |A| |u|: what an answer is measured by.
-    fn add_scale(&self, u: &[f64], scale: &mut [f64]);
-    /// The same by differences of u, which is less where bodies move as a whole: refinement goes on until both are small.
+    /// scale += |A| |u| by differences of u, which is less where bodies move as a whole.
     fn add_moved(&self, u: &[f64], scale: &mut [f64]);
+    /// |A| |u| + |f|, by which an answer is measured, and the same by differences: refinement goes on until the residual is small
+    /// against both. One number where only differences are known.
+    fn scales(&self, u: &[f64], mut f: Vec<f64>) -> [Vec<f64>; 2] {
+        self.add_moved(u, &mut f);
+        [f.clone(), f]
+    }
     /// A⁻¹ b in place for several right-hand sides that are zero at held dofs.
     fn apply(&self, b: &mut [Vec<f64>]);
 
@@ -100,11 +104,7 @@ pub trait Factored {
 
     /// max |r| / (|A| |u| + |f|) over the free dofs; and the same with |A| |u| by differences.
     fn errors(&self, f: &[f64], u: &[f64], residual: &[f64]) -> [f64; 2] {
-        let size: Vec<f64> = f.iter().map(|f| f.abs()).collect();
-        let mut scales = [size.clone(), size];
-        self.add_scale(u, &mut scales[0]);
-        self.add_moved(u, &mut scales[1]);
-        scales.map(|scale| {
+        self.scales(u, f.iter().map(|f| f.abs()).collect()).map(|scale| {
             if !scale.iter().all(|scale| scale.is_finite()) {
                 return f64::INFINITY; // overflow: a maximum would pass over what is not a number
             }

@@ -1,21 +1,69 @@
-//! The springs of an interface as a dense element of a sparse matrix: Gᵀ T G on the dofs that it joins.
+//! Springs of interfaces as dense elements of a sparse matrix: Gᵀ T G on the unknowns that an interface joins.
+
+use std::sync::Arc;
 
 use faer::Mat;
+use rayon::prelude::*;
 
+use crate::assembly::InterfaceTangent;
 use crate::sparse::Csr;
 
-/// Where the springs of an interface act.
+/// The elements of all interfaces, and the tangents that they were made of last.
 #[derive(Debug)]
-pub(super) struct SpringElement {
-    /// Its unknowns, ascending.
-    pub(super) unknowns: Vec<u32>,
+pub(super) struct SpringElements {
+    elements: Vec<SpringElement>,
+    made: Vec<Vec<f64>>,
+}
+
+/// The unknowns of an interface, and G on them.
+#[derive(Debug)]
+struct SpringElement {
+    /// Ascending.
+    unknowns: Vec<u32>,
     /// G on these.
     jump: Csr,
 }
 
+impl SpringElements {
+    /// For G of every interface on all unknowns.
+    pub(super) fn new<'a>(jumps: impl IndexedParallelIterator<Item = &'a Csr>) -> SpringElements {
+        let elements: Vec<SpringElement> = jumps.map(SpringElement::new).collect();
+        SpringElements { made: vec![Vec::new(); elements.len()], elements }
+    }
+
+    /// Unknowns of every interface, ascending.
+    pub(super) fn unknowns(&self) -> Vec<Vec<u32>> {
+        self.elements.iter().map(|element| element.unknowns.clone()).collect()
+    }
+
+    /// Gᵀ T G of the interfaces whose tangent, given for the `active` ones, is another than before; without the equations of unknowns
+    /// that are `held`.
+    pub(super) fn renewed(
+        &mut self,
+        active: &[usize],
+        tangents: &[InterfaceTangent],
+        held: &[bool],
+    ) -> Vec<Option<Arc<Mat<f64>>>> {
+        let mut tangent_of = vec![None; self.elements.len()];
+        active.iter().zip(tangents).for_each(|(&k, tangent)| tangent_of[k] = Some(&tangent.matrix));
+        let renew = |((element, made), tangent): ((&SpringElement, &mut Vec<f64>), Option<&Csr>)| {
+            let tangent = tangent.filter(|tangent| *made != tangent.values)?;
+            made.clone_from(&tangent.values);
+            Some(Arc::new(element.element(tangent, held)))
+        };
+        self.elements.par_iter().zip(&mut self.made).zip(tangent_of).map(renew).collect()
+    }
+
+    /// Sum over the active interfaces of the squares of |T| |G| |x|, forces to the digits of displacements whose differences are jumps.
+    pub(super) fn squares(&self, active: &[usize], tangents: &[InterfaceTangent], x: &[f64]) -> f64 {
+        let of = |(&k, tangent): (&usize, &InterfaceTangent)| self.elements[k].squares(&tangent.matrix, x);
+        active.iter().zip(tangents).map(of).sum()
+    }
+}
+
 impl SpringElement {
     /// For G on all unknowns.
-    pub(super) fn new(jump: &Csr) -> SpringElement {
+    fn new(jump: &Csr) -> SpringElement {
         let mut unknowns: Vec<u32> = jump.columns.iter().map(|&dof| dof as u32).collect();
         unknowns.sort_unstable();
         unknowns.dedup();
@@ -24,8 +72,8 @@ impl SpringElement {
         SpringElement { jump: Csr { columns, width: unknowns.len(), ..jump.clone() }, unknowns }
     }
 
-    /// Gᵀ T G without the equations of `held` unknowns.
-    pub(super) fn element(&self, tangent: &Csr, held: impl Fn(usize) -> bool) -> Mat<f64> {
+    /// Gᵀ T G without the equations of unknowns that are `held`.
+    fn element(&self, tangent: &Csr, held: &[bool]) -> Mat<f64> {
         let size = self.unknowns.len();
         let mut transposed = Mat::<f64>::zeros(size, size);
         let mut row = vec![0.0; size];
@@ -43,10 +91,25 @@ impl SpringElement {
             }
         }
         for (k, &unknown) in self.unknowns.iter().enumerate() {
-            if held(unknown as usize) {
+            if held[unknown as usize] {
                 transposed.col_as_slice_mut(k).fill(0.0);
             }
         }
         transposed.transpose().to_owned()
+    }
+
+    /// Sum of the squares of |T| |G| |x|.
+    fn squares(&self, tangent: &Csr, x: &[f64]) -> f64 {
+        let jump = |i: usize| {
+            let (places, values) = self.jump.row(i);
+            let at = |k: usize| x[self.unknowns[k] as usize];
+            places.iter().zip(values).map(|(&k, value)| (value * at(k)).abs()).sum::<f64>()
+        };
+        let jumps: Vec<f64> = (0..self.jump.rows()).map(jump).collect();
+        let force = |i: usize| {
+            let (columns, values) = tangent.row(i);
+            columns.iter().zip(values).map(|(&j, value)| value.abs() * jumps[j]).sum::<f64>()
+        };
+        (0..tangent.rows()).map(|i| force(i).powi(2)).sum()
     }
 }

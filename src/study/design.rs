@@ -23,7 +23,7 @@ const MOST: usize = 1_000_000;
 pub(super) struct DesignPoints {
     /// Number of points.
     pub(super) count: usize,
-    /// Of a Latin hypercube, the stratum of every point by axis.
+    /// Strata of a Latin hypercube: one of every point, by axis.
     strata: Vec<Vec<u32>>,
 }
 

@@ -124,7 +124,7 @@ impl<'a> Equations<'a> {
             let held: Vec<bool> = (0..dofs).map(held).collect();
             let continuum = Continuum::new(model, &held, cache).map_err(too_large)?;
             let (method, estimate) = choose(problem, &continuum, &condensed_interfaces, (available, before))?;
-            operations = Some(estimate).filter(|_| !linear);
+            operations = estimate;
             let factor_entries = continuum.entries();
             if method != Method::Plain {
                 let every = || 0..model.interfaces.len();

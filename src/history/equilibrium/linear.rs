@@ -227,12 +227,8 @@ mod tests {
             vec![f[0] - u[0]]
         }
 
-        fn add_scale(&self, u: &[f64], scale: &mut [f64]) {
-            scale[0] += u[0].abs();
-        }
-
         fn add_moved(&self, u: &[f64], scale: &mut [f64]) {
-            self.add_scale(u, scale);
+            scale[0] += u[0].abs();
         }
 
         fn apply(&self, b: &mut [Vec<f64>]) {

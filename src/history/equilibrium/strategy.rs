@@ -18,11 +18,12 @@ const FEWEST: f64 = 100.0;
 const CONDENSED_DOF: f64 = 4.5e5;
 const DOF: f64 = 1.2e4;
 const ITERATION: f64 = 5e7;
-/// Of the condensed system an iteration factors what is not intact, a third of the points where much slides.
+/// Cost of a condensed iteration by the square and the cube of its unknowns; only those of points that are not intact are factored, a
+/// third where much slides.
 const BY_UNKNOWN_SQUARED: f64 = 200.0;
 const FACTORED: f64 = 0.2;
 /// An operation of factors by fronts, a number that they hold, an unknown, and what an iteration takes beside them.
-const FRONTS: [f64; 4] = [0.8, 80.0, 2.6e4, 3e7];
+const FRONTS: [f64; 4] = [0.8, 86.0, 2.6e4, 3e7];
 
 /// K_N h/E at which displacements of bodies have the digits of the forces between them: rounding is 1e-16 times it, or over it.
 const EVEN: std::ops::RangeInclusive<f64> = 1e-5..=1e4;
@@ -64,9 +65,17 @@ pub(in crate::history) fn choose(
     continuum: &Continuum,
     condensed_interfaces: &[usize],
     (available, before): (Option<u64>, Option<Method>),
-) -> Result<(Method, Operations)> {
+) -> Result<(Method, Option<Operations>)> {
     let (model, dofs) = (&problem.model, problem.model.dofs());
     let separator = continuum.separator() as f64;
+    let dense = |coefficients: f64| continuum.separator().pow(2) + 5 * (coefficients as usize).pow(2);
+    let needed = |numbers: usize| memory::needed(continuum.bytes() + size_of::<f64>() * numbers, 0, dofs);
+    if condensed_interfaces.is_empty() {
+        // displacements of a linear scene: no form is to be chosen
+        let numbers = dense(0.0);
+        memory::check_fits(dofs, continuum.entries() + numbers, needed(numbers), available)?;
+        return Ok((Method::Condensed, None));
+    }
     let coefficients = condensed_interfaces.iter().map(|&k| model.interfaces[k].size()).sum::<usize>() as f64;
     let changes = problem.steps.windows(2).filter(|pair| pair[0].constrained != pair[1].constrained).count();
     let sets = (1 + changes) as f64;
@@ -105,11 +114,10 @@ pub(in crate::history) fn choose(
         let work = plain_work(problem, &model.continuum_pattern());
         estimate.plain = every + iterations * fronts(work);
     }
-    let dense = continuum.separator().pow(2) + 5 * (coefficients as usize).pow(2);
-    let needed = |numbers: usize| memory::needed(continuum.bytes() + size_of::<f64>() * numbers, 0, dofs);
+    let dense = dense(coefficients);
     let fits = |numbers: usize| available.is_none_or(|available| needed(numbers) <= available);
     let method = match problem.solution.strategy {
-        Strategy::Auto if condensed_interfaces.is_empty() || problem.flows() => Method::Condensed,
+        Strategy::Auto if problem.flows() => Method::Condensed,
         Strategy::Auto if before.is_some() => before.unwrap_or_default(),
         Strategy::Auto => {
             let condensed = if fits(dense) { estimate.condensed } else { f64::INFINITY };
@@ -132,7 +140,7 @@ pub(in crate::history) fn choose(
     if method != Method::Plain {
         memory::check_fits(dofs, continuum.entries() + numbers, needed(numbers), available)?;
     }
-    Ok((method, estimate))
+    Ok((method, Some(estimate)))
 }
 
 /// True if displacements will do as unknowns of `blocks`: jumps of stiff interfaces cannot be their differences, and of bodies that
