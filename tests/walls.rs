@@ -4,11 +4,12 @@
 
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 use midplane::history::{Clock, Equations, History, Means, ModelState};
 use midplane::problem::Problem;
 use midplane::run::{Options, prepare};
-use midplane::solver::Continuum;
+use midplane::solver::{Continuum, Form, JoinedSubdomains};
 
 const FRICTION: &str = r#"{ "type": "coulomb", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "friction_coefficient": 0.6 }"#;
 const CRACKING: &str = r#"{ "type": "cracking", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "tensile_strength": 0.05,
@@ -176,6 +177,9 @@ fn voussoirs_of_an_arch_are_condensed_once_and_turned() {
     let held: Vec<bool> = problem.steps[0].constrained.clone();
     // 2 to 6 are one; 1 and 7 have interfaces on one side only, and supports
     assert_eq!(Continuum::new(&problem.model, &held, None).unwrap().distinct().0, 3);
+    // supports are along the axes: a held one is like none that is turned
+    let held = vec![true; problem.model.dofs()];
+    assert_eq!(Continuum::new(&problem.model, &held, None).unwrap().distinct().0, voussoirs);
     let [one, other] = ["blocks", "plain"].map(|strategy| states(folder.path(), strategy));
     for (a, b) in one.iter().zip(&other) {
         let apart = apart(a, b);
@@ -191,22 +195,45 @@ fn bricks_of_another_size_or_material_are_not_equal() {
         r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {} }} }}"#,
         on(&low, 1, r#"["x", "y"]"#)
     );
-    let distinct = |blocks: &[Block], held: bool| {
+    let distinct = |blocks: &[Block], stiffer: Option<usize>| {
         scene(folder.path(), blocks, FRICTION, &step);
-        let problem = bound(folder.path(), "blocks");
-        let held: Vec<bool> =
-            problem.steps[0].constrained.iter().map(|constrained| held && *constrained).collect();
-        Continuum::new(&problem.model, &held, None).unwrap().distinct().0
+        let mut problem = bound(folder.path(), "blocks");
+        if let Some(brick) = stiffer {
+            problem.model.subdomains[brick].elasticity.c33 *= 1.0 + f64::EPSILON;
+        }
+        Continuum::new(&problem.model, &[], None).unwrap().distinct().0
     };
-    let before = distinct(&blocks, true);
+    let before = distinct(&blocks, None);
     assert!(before < blocks.len(), "{before}");
-    // a brick in the middle, of which there is another: longer cells in one, the same number
+    // a brick in the middle, of which there is another: stiffer in the last digit; longer, with as many cells
     let middle = blocks.iter().position(|block| block.corners[0] == [0.125, 0.1]).unwrap();
+    assert_eq!(distinct(&blocks, Some(middle)), before + 1);
     for corner in [1, 2] {
         blocks[middle].corners[corner][0] += 1e-3;
         blocks[middle + 1].corners[[0, 3][corner - 1]][0] += 1e-3;
     }
-    assert!(distinct(&blocks, true) > before);
+    assert!(distinct(&blocks, None) > before);
+}
+
+#[test]
+fn bodies_that_move_as_a_whole_make_no_forces() {
+    // not to 1e-16 of S x, but none: what is taken are differences
+    let (blocks, [low, _]) = wall(2, 2);
+    let folder = tempfile::tempdir().unwrap();
+    let fix = on(&low, 1, r#"["x", "y"]"#);
+    let step = format!(r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }} }}"#);
+    scene(folder.path(), &blocks, FRICTION, &step);
+    let problem = bound(folder.path(), "blocks");
+    let free = vec![false; problem.model.dofs()];
+    let continuum = Continuum::new(&problem.model, &free, None).unwrap();
+    let condensation = Arc::new(continuum.condense(&free).unwrap());
+    let interfaces = &problem.model.interfaces;
+    let form = JoinedSubdomains::new(&continuum, condensation, interfaces, &free);
+    let x: Vec<f64> = (0..continuum.separator()).map(|k| [0.3, -0.7][k % 2]).collect();
+    let forces: Vec<Vec<f64>> = interfaces.iter().map(|interface| vec![0.0; interface.size()]).collect();
+    assert!(form.residual(&x, &forces, &vec![0.0; x.len()]).iter().all(|force| *force == 0.0));
+    let turned: Vec<f64> = x.iter().enumerate().map(|(k, x)| x * k as f64).collect();
+    assert!(form.residual(&turned, &forces, &vec![0.0; x.len()]).iter().any(|force| *force != 0.0));
 }
 
 #[test]

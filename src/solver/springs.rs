@@ -113,3 +113,34 @@ impl SpringElement {
         (0..tangent.rows()).map(|i| force(i).powi(2)).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_and_sizes_are_those_of_dense_products() {
+        // two jumps between unknowns 1, 4 and 6 of seven, and a tangent that is not symmetric
+        let jump = Csr::from_triplets(2, 7, &[(0, 1, -1.0), (0, 4, 0.5), (1, 4, -0.25), (1, 6, 2.0)]);
+        let tangent = Csr::from_triplets(2, 2, &[(0, 0, 3.0), (0, 1, -1.0), (1, 1, 5.0)]);
+        let entry = |of: &Csr, i: usize, j: usize| {
+            let (columns, values) = of.row(i);
+            columns.iter().position(|&column| column == j).map_or(0.0, |k| values[k])
+        };
+        let springs = SpringElement::new(&jump);
+        assert_eq!(springs.unknowns, [1, 4, 6]);
+        let held: Vec<bool> = (0..7).map(|k| k == 4).collect();
+        let element = springs.element(&tangent, &held);
+        for (a, row) in [1, 4, 6].into_iter().enumerate() {
+            for (b, column) in [1, 4, 6].into_iter().enumerate() {
+                let pairs = (0..2).flat_map(|i| (0..2).map(move |j| (i, j)));
+                let product = pairs
+                    .map(|(i, j)| entry(&jump, i, row) * entry(&tangent, i, j) * entry(&jump, j, column));
+                assert_eq!(element[(a, b)], if row == 4 { 0.0 } else { product.sum() });
+            }
+        }
+        // |G| |x| = (1·2 + 0.5·4, 0.25·4 + 2·1), |T| of these (3·4 + 3, 5·3)
+        let x = [9.0, -2.0, 9.0, 9.0, 4.0, 9.0, -1.0];
+        assert_eq!(springs.squares(&tangent, &x), 15.0_f64.powi(2) + 15.0_f64.powi(2));
+    }
+}
