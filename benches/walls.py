@@ -3,15 +3,16 @@ beside them a plain sparse Newton's method on scikit-fem with the same law on th
 
     python3 benches/walls.py target/release/midplane [--peer .venv-peers/bin/python] [--large] [-o results/bench/walls]
 
-Seconds are those of the whole process, the mesher included; of `--repeat` runs the fastest counts. Exponents are slopes of the
+Seconds are those of the whole process, the mesher included; of `--repeat` runs the fastest counts. Every run writes into a new
+folder, and none is deleted before the last has ended: a file system that has just lost thousands of files makes new ones slowly. Exponents are slopes of the
 logarithms from the smallest wall to the largest. `--large` adds 10 000 bricks: elastic, and friction in 10 increments."""
 
 import argparse
 import csv
 import json
 import math
-import shutil
 import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -25,8 +26,7 @@ COLUMNS = ("law", "bricks", "dofs", "increments", "strategy", "iterations", "sec
 
 
 def run(program, folder, out):
-    """Seconds of a whole process that begins with nothing, and its summary."""
-    shutil.rmtree(out, ignore_errors=True)
+    """Seconds of a whole process, and its summary."""
     start = time.perf_counter()
     subprocess.run([program, "run", "-q", folder, "-o", out, "--set=output.fields=last"], check=True)
     seconds = time.perf_counter() - start
@@ -34,11 +34,12 @@ def run(program, folder, out):
 
 
 def row_of(options, law, shape, increments, repeat):
-    folder = options.out / f"{law}_{shape[0]}x{shape[1]}"
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = options.scenes / f"{law}_{shape[0]}x{shape[1]}"
+    folder.mkdir()
     bricks = wall(*shape, folder, CELLS, law, increments)
-    seconds, summary = min((run(options.program.resolve(), folder, folder / "out") for _ in range(repeat)), key=lambda r: r[0])
-    with open(folder / "out" / "history.csv") as file:
+    outs = [folder / f"out_{k}" for k in range(repeat)]
+    seconds, summary = min((run(options.program.resolve(), folder, out) for out in outs), key=lambda r: r[0])
+    with open(outs[0] / "history.csv") as file:
         push = list(csv.DictReader(file))[-1]["push"]
     solution = summary["solution"]
     row = (law, bricks, summary["sizes"]["dofs"], increments, solution["strategy"], solution["iterations"], round(seconds, 2))
@@ -54,7 +55,7 @@ def exponent(rows, what):
 
 def peer(python, folder, *how):
     """What the peer says of a wall that midplane has meshed."""
-    mesh = next((folder / "out" / "mesh").glob("*.msh"))
+    mesh = next((folder / "out_0" / "mesh").glob("*.msh"))
     script = Path(__file__).resolve().parent / "peers" / "wall_with_skfem.py"
     command = [python, script, folder / "scene.json", mesh, *how]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()[-1])
@@ -91,6 +92,17 @@ def main():
     parser.add_argument("--repeat", type=int, default=1)
     parser.add_argument("-o", "--out", type=Path, default=Path("results/bench/walls"))
     options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=options.out) as scenes:
+        options.scenes = Path(scenes)
+        rows = measured(options)
+    with open(options.out / "walls.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def measured(options):
     rows = []
     for law in options.laws:
         of = [row_of(options, law, SIZES[size], options.increments, options.repeat) for size in options.sizes]
@@ -105,12 +117,8 @@ def main():
         for size in options.peer_sizes:
             courses, columns = SIZES[size]
             own = next(row for row in rows if row["law"] == "friction" and row["bricks"] in range(size, 2 * size))
-            beside(options.peer, options.out / f"friction_{courses}x{columns}", own)
-    options.out.mkdir(parents=True, exist_ok=True)
-    with open(options.out / "walls.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
+            beside(options.peer, options.scenes / f"friction_{courses}x{columns}", own)
+    return rows
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 //! that work − stored − dissipated − released is an error: of second order in the parts, and none of round-off size if a
 //! dissipation or an energy is wrong.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::converged::{Converged, InterfaceResponse};
@@ -259,7 +260,7 @@ impl ModelState {
     /// Stresses of all bodies; none where displacements are not known.
     pub(super) fn stresses(&self, problem: &Problem) -> Vec<Stresses> {
         let bodies = if self.is_complete() { problem.model.subdomains.len() } else { 0 };
-        (0..bodies).map(|b| stresses(problem, self.at, b, &self.snapshot.u)).collect()
+        (0..bodies).into_par_iter().map(|b| stresses(problem, self.at, b, &self.snapshot.u)).collect()
     }
 
     /// The largest energy so far [force × length].

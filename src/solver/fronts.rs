@@ -44,16 +44,24 @@ pub(super) struct Layout {
     pub(super) entries: Vec<(u32, u32)>,
 }
 
+/// Adjacent rows of a matrix that are adjacent rows of a front too: the first in either, and how many they are.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct PlaceRun {
+    pub(super) from: usize,
+    pub(super) to: usize,
+    pub(super) length: usize,
+}
+
 /// One front.
 #[derive(Debug, Default)]
 pub(super) struct Front {
     /// Its unknowns, the pivots first.
     pub(super) rows: Vec<u32>,
     pub(super) pivots: usize,
-    /// Fronts that leave something to this one, and where: the place of every unknown of their borders.
-    pub(super) children: Vec<(u32, Vec<u32>)>,
+    /// Fronts that leave something to this one, and the places of the unknowns of their borders.
+    pub(super) children: Vec<(u32, Vec<PlaceRun>)>,
     /// Elements that it takes, and the places of their unknowns.
-    pub(super) elements: Vec<(u32, Vec<u32>)>,
+    pub(super) elements: Vec<(u32, Vec<PlaceRun>)>,
     /// Single entries that it takes: number, row and column.
     pub(super) entries: Vec<(u32, u32, u32)>,
 }
@@ -148,7 +156,7 @@ impl Fronts {
             rows.iter().for_each(|&unknown| front_of[unknown as usize] = fronts.len() as u32);
             rows.extend(all(&supernode.border));
             (0..).zip(&rows).for_each(|(at, &unknown)| place[unknown as usize] = at);
-            let places = |rows: &[u32]| rows.iter().map(|&unknown| place[unknown as usize]).collect();
+            let places = |rows: &[u32]| runs(rows.iter().map(|&unknown| place[unknown as usize] as usize));
             let children = supernode.children.iter().map(|&child| {
                 let child = new[child as usize];
                 let below = &fronts[child as usize];
@@ -170,7 +178,7 @@ impl Fronts {
         }
         for ((front, elements), entries) in fronts.iter_mut().zip(of_elements).zip(of_entries) {
             (0..).zip(&front.rows).for_each(|(at, &unknown)| place[unknown as usize] = at);
-            let places = |rows: &[u32]| rows.iter().map(|&unknown| place[unknown as usize]).collect();
+            let places = |rows: &[u32]| runs(rows.iter().map(|&unknown| place[unknown as usize] as usize));
             front.elements =
                 elements.into_iter().map(|e| (e, places(&layout.elements[e as usize]))).collect();
             let entry = |e: u32| {
@@ -191,6 +199,18 @@ impl Fronts {
             unknowns: self.fronts.iter().map(|front| front.pivots).sum(),
         }
     }
+}
+
+/// Rows 0, 1, … of a matrix by their places in a front.
+fn runs(places: impl Iterator<Item = usize>) -> Vec<PlaceRun> {
+    let mut runs: Vec<PlaceRun> = Vec::new();
+    for (from, to) in places.enumerate() {
+        match runs.last_mut() {
+            Some(run) if run.to + run.length == to => run.length += 1,
+            _ => runs.push(PlaceRun { from, to, length: 1 }),
+        }
+    }
+    runs
 }
 
 /// The fronts by nodes, numbered by their place in the order: the elimination tree with children merged into their parents where
@@ -245,4 +265,17 @@ fn compact(supernodes: Vec<Supernode>) -> Vec<Supernode> {
         supernode
     })
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_that_follow_each_other_are_one_run() {
+        let expected =
+            [(0, 4, 2), (2, 7, 1), (3, 0, 3)].map(|(from, to, length)| PlaceRun { from, to, length });
+        assert_eq!(runs([4, 5, 7, 0, 1, 2].into_iter()), expected);
+        assert_eq!(runs(std::iter::empty()), []);
+    }
 }

@@ -21,7 +21,7 @@ use faer::{Accum, Mat, Par};
 use rayon::prelude::*;
 
 use super::dense::{column_mut, parallelism};
-use super::fronts::{Front, Fronts, Layout};
+use super::fronts::{Front, Fronts, Layout, PlaceRun};
 
 /// The factors, and what is needed to renew them.
 #[derive(Debug)]
@@ -40,6 +40,14 @@ struct Factors {
     changed: bool,
     regular: bool,
     made: bool,
+}
+
+/// Adds numbers to those at their places.
+fn add_runs(of: &[f64], into: &mut [f64], places: &[PlaceRun]) {
+    for &PlaceRun { from, to, length } in places {
+        let into = &mut into[to..to + length];
+        into.iter_mut().zip(&of[from..from + length]).for_each(|(into, value)| *into += value);
+    }
 }
 
 impl Multifrontal {
@@ -85,8 +93,7 @@ impl Multifrontal {
                     front.rows[..front.pivots].iter().map(|&row| b[row as usize]).collect();
                 of.resize(front.rows.len(), 0.0);
                 for (child, places) in &front.children {
-                    let left = left[*child as usize].iter();
-                    left.zip(places).for_each(|(left, &place)| of[place as usize] += left);
+                    add_runs(&left[*child as usize], &mut of, places);
                 }
                 let border = of.split_off(front.pivots);
                 factors.forward(of, border)
@@ -141,11 +148,12 @@ impl Factors {
     }
 
     /// Adds the trailing part of a matrix, from a row and column on.
-    fn add(&mut self, matrix: &Mat<f64>, from: usize, places: &[u32]) {
-        for (j, &column) in (from..).zip(places) {
-            let of = &matrix.col_as_slice(j)[from..];
-            let into = self.matrix.col_as_slice_mut(column as usize);
-            of.iter().zip(places).for_each(|(value, &row)| into[row as usize] += value);
+    fn add(&mut self, matrix: &Mat<f64>, from: usize, places: &[PlaceRun]) {
+        for columns in places {
+            for k in 0..columns.length {
+                let of = &matrix.col_as_slice(from + columns.from + k)[from..];
+                add_runs(of, self.matrix.col_as_slice_mut(columns.to + k), places);
+            }
         }
     }
 
