@@ -138,7 +138,7 @@ $(VENV): pipeline/requirements.txt | tools
 	python3 -m venv --clear .venv
 	.venv/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r $<
 	.venv/bin/pip check --disable-pip-version-check
-	echo "$(CURDIR)/python/src" > "$$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/midplane.pth"
+	printf '%s\n' "$(CURDIR)/python/src" "$(CURDIR)/pipeline" > "$$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/midplane.pth"
 	@touch $@
 
 # the package as a stranger installs it, apart from the sources, with what its tests and notebooks need
@@ -157,6 +157,46 @@ notebooks: $(MIDPLANE) $(NOTEBOOKS)  ## the Python package: types, format, tests
 	cd python && MIDPLANE="$(abspath $(MIDPLANE))" ../.venv-notebooks/bin/python -m pytest -q
 	MIDPLANE="$(abspath $(MIDPLANE))" MIDPLANE_GEO="$(CURDIR)/geo" .venv-notebooks/bin/python python/notebooks/execute.py \
 	    results/notebooks $(if $(docs),--keep)
+
+# the book's own environment: nothing of it is needed for anything else
+BOOK := .venv-book/ready
+$(BOOK): docs/requirements.txt | tools
+	python3 -m venv --clear .venv-book
+	.venv-book/bin/pip install --quiet --disable-pip-version-check --no-deps --require-hashes -r $<
+	@touch $@
+
+keys: $(MIDPLANE) $(VENV)  ## renew the schemas in geo/ and docs/KEYS.md from the program
+	$(MIDPLANE) schema --write geo/scene.schema.json
+	$(MIDPLANE) schema study --write geo/study.schema.json
+	$(PYTHON) -m midplane_pipeline.book.keys geo/scene.schema.json geo/study.schema.json > docs/KEYS.md
+
+book: $(BOOK) $(VENV)  ## all documents as a site, every link checked: results/book/index.html
+	$(PYTHON) -m midplane_pipeline.book.keys geo/scene.schema.json geo/study.schema.json | cmp - docs/KEYS.md
+	test $$(wc -l < README.md) -le 120
+	rm -rf results/book && .venv-book/bin/sphinx-build -W --keep-going -q -b html docs results/book
+	@echo "results/book/index.html"
+
+book-test: $(MIDPLANE) $(VENV)  ## run every command of README.md and docs/, in order, as a reader would
+	$(PYTHON) -m midplane_pipeline.book.commands --program $(MIDPLANE) README.md $(filter-out docs/KEYS.md,$(wildcard docs/*.md))
+
+# packages, from what stands in target/deb: manual pages, completions, the wheel
+CARGO_DEB := $(TARGET)/tools/bin/cargo-deb
+$(CARGO_DEB): | tools
+	cargo install --quiet --locked --no-default-features --root $(TARGET)/tools cargo-deb@3.8.0
+
+wheel: $(NOTEBOOKS)  ## the Python package: target/deb/midplane-*.whl
+	rm -f $(TARGET)/deb/*.whl && mkdir -p $(TARGET)/deb
+	.venv-notebooks/bin/pip wheel --quiet --disable-pip-version-check --no-deps --no-build-isolation -w $(TARGET)/deb ./python
+
+deb: $(MIDPLANE) $(CARGO_DEB) wheel book  ## a Debian package: target/debian/midplane_*.deb
+	rm -rf $(TARGET)/deb/man && $(MIDPLANE) manual $(TARGET)/deb/man
+	$(MIDPLANE) completions bash > $(TARGET)/deb/midplane.bash
+	$(MIDPLANE) completions zsh > $(TARGET)/deb/_midplane
+	$(MIDPLANE) completions fish > $(TARGET)/deb/midplane.fish
+	rm -f $(TARGET)/debian/*.deb && $(CARGO_DEB) --no-build --no-strip
+
+package-test: deb $(VENV)  ## unpack .deb and wheel into empty places and run the first scene from there; `root=DIR`: in a Debian of their own
+	$(PYTHON) -m midplane_pipeline.packages $(TARGET)/debian/*.deb $(TARGET)/deb/*.whl -o results/packages $(if $(root),--root $(root))
 
 tools:            ## install what is missing on the system, or say what it is
 	@pipeline/tools.sh
@@ -296,21 +336,22 @@ trade-quick: $(MIDPLANE) $(VENV) | browser  ## the same on four scenes with coar
 	$(PYTHON) pipeline/trade_page.py results/trade-quick/trade.json
 	$(PYTHON) pipeline/trade_check.py results/trade-quick/trade.html
 
-trade-docs: $(VENV)  ## put what `make trade` has measured into docs/trade/ and the README
+trade-docs: $(VENV)  ## put what `make trade` has measured into docs/trade/ and docs/CHOOSING.md
 	$(PYTHON) pipeline/trade_page.py results/trade/trade.json -o docs/trade
-	$(PYTHON) pipeline/trade_docs.py results/trade docs/trade README.md
+	$(PYTHON) pipeline/trade_docs.py results/trade docs/trade docs/CHOOSING.md
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
 	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test tests -- example1:: patch:: round:: verify::
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
-	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
+	    for table in results/verify/*.md; do echo; sed 's,^### ,## ,' $$table; done; } > docs/VERIFICATION.md
 
 lint: generated   ## format and clippy, warnings are errors; advisories and licences of what is used
 	cargo fmt --check -p midplane -p midplane-fuzz -p midplane-mutants
 	python3 pipeline/advisories.py check
 	python3 pipeline/licences.py check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --quiet --release --locked --no-deps -p midplane
 
 docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	cp results/compression/pictures/coupling_joint.png docs/compression_coupling.png
@@ -341,7 +382,7 @@ docs: $(SCENES) law check-four_blocks  ## renew the pictures of the README
 	done
 
 clean:            ## remove everything made here: results, build, Python environment
-	rm -rf results .venv .venv-notebooks
+	rm -rf results .venv .venv-notebooks .venv-book
 	cargo clean
 
 help:             ## this list
@@ -354,4 +395,5 @@ help:             ## this list
 # what depends on it is made whenever it is asked for
 .FORCE:
 
-.PHONY: all notebooks bench-walls wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick cluster-test bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help
+
+.PHONY: keys book book-test wheel deb package-test all notebooks bench-walls wall-300 generated test-paraview tools browser build test confinement extremes extremes-quick hostile-test damage-test damage-test-quick fuzz-build fuzz fuzz-quick robustness-docs mutants kill-test kill-test-quick cluster-test bench-growth trade trade-full trade-quick trade-robust trade-compare trade-docs bench bench-quick bench-peers bench-docs law verify lint docs clean help

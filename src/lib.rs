@@ -16,6 +16,23 @@
 //! The rooms, each of which may import only those above it (a test enforces the table):
 //! `error`, `sparse`, `shape`, `law`, `scene`, `mesh`, `coupling`, `continuum`, `assembly`, `solver`, `problem`, `output`,
 //! `history`, `run`, `study`, `cli`.
+//!
+//! One point of a law, pressed and sheared, then pulled open:
+//!
+//! ```
+//! use midplane::law::{Integration, Law, Local, State};
+//!
+//! let law: Law = serde_json::from_str(
+//!     r#"{ "type": "coulomb", "normal_stiffness": 1e5, "tangential_stiffness": 1e5, "friction_coefficient": 0.6 }"#,
+//! )?;
+//! let pressed = law.respond(Local::new(-1e-5, 1e-3, 0.0), &State::default(), Integration::Tolerance(1e-6))?;
+//! assert!((pressed.traction.x + 1.0).abs() < 1e-12 && (pressed.traction.y - 0.6).abs() < 1e-12);
+//! let open = law.respond(Local::new(1e-4, 1e-3, 0.0), &pressed.state, Integration::Tolerance(1e-6))?;
+//! assert_eq!(open.traction, Local::zeros());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A scene from its file to its results is [`run::run`]; increments one by one are [`history::History`].
 
 #![warn(missing_docs)]
 // no panic is reachable from input

@@ -21,7 +21,7 @@ Examples:
   midplane run geo/compression -o out --set steps.0.load.upper.top.pressure=5
   midplane check geo/cantilever           sizes, edges, segments, warnings
   midplane law geo/shear joint path.json  one point of a law along a path, as CSV
-  midplane schema > geo/scene.schema.json
+  midplane schema --write                 scene.schema.json, by which editors complete and check scenes
 
 Exit codes: 0 done; 2 bad input; 3 no equilibrium (what converged is on disk); 4 environment (no gmsh, disk full);\n128 + signal after Ctrl-C, SIGTERM or SIGHUP (what converged is on disk; a second one ends at once)."
 )]
@@ -147,15 +147,25 @@ What a study may hold: midplane schema study")]
         #[arg(short, long)]
         quiet: bool,
     },
-    /// Print the JSON Schema of scenes or studies
+    /// Print or write the JSON Schema of scenes or studies
     #[command(after_help = "\
 Examples:
-  midplane schema > geo/scene.schema.json        for editors that complete and check a scene
-  midplane schema study > geo/study.schema.json  the same for a study")]
+  midplane schema --write                        scene.schema.json, for editors: \"$schema\": \"scene.schema.json\" in the scene
+  midplane schema study --write geo/study.schema.json
+  midplane schema > geo/scene.schema.json")]
     Schema {
-        /// File whose schema is printed
+        /// File whose schema is meant
         #[arg(value_enum, default_value_t = Of::Scene)]
         of: Of,
+        /// Write it to a file, scene.schema.json or study.schema.json if none is named
+        #[arg(long, value_name = "FILE")]
+        write: Option<Option<PathBuf>>,
+    },
+    /// Write the manual pages of all commands into a folder
+    #[command(hide = true)]
+    Manual {
+        /// The folder
+        folder: PathBuf,
     },
     /// Print a completion script for a shell
     #[command(after_help = "\
@@ -182,6 +192,16 @@ impl Command {
 pub(super) enum Of {
     Scene,
     Study,
+}
+
+impl Of {
+    /// The file that a schema is written to where none is named.
+    pub(super) fn file(self) -> &'static str {
+        match self {
+            Of::Scene => "scene.schema.json",
+            Of::Study => "study.schema.json",
+        }
+    }
 }
 
 fn at_most(text: &str, most: usize) -> Result<NonZeroUsize, String> {

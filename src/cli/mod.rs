@@ -19,6 +19,7 @@ use arguments::{Arguments, Command, Of};
 use printer::Printer;
 
 use crate::error::{Error, Result, Stop};
+use crate::files;
 use crate::law::Integration;
 use crate::law::path;
 use crate::output;
@@ -108,12 +109,20 @@ fn act(arguments: Arguments, printer: &Printer) -> Result<()> {
             let follow = follow::Follow::new(&plan, &means, quiet, printer);
             if collect { follow.collect() } else { follow.run(once.as_deref()) }
         }
-        Command::Schema { of } => {
+        Command::Schema { of, write } => {
             let schema = match of {
                 Of::Scene => scene::scene_schema(),
                 Of::Study => study::study_schema(),
             };
-            print(&format!("{schema:#}\n"))
+            let text = format!("{schema:#}\n");
+            match write {
+                None => print(&text),
+                Some(file) => files::write_whole(&file.unwrap_or_else(|| of.file().into()), text.as_bytes()),
+            }
+        }
+        Command::Manual { folder } => {
+            std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
+            clap_mangen::generate_to(Arguments::command(), &folder).map_err(Error::io("write", &folder))
         }
         Command::Completions { shell } => {
             let mut script = Vec::new();

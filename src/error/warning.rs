@@ -18,9 +18,9 @@ pub enum Code {
     /// Bad cells beside an interface.
     BadCells,
     /// Shear stiffness too low for the fracture energies.
-    LeapInShear,
+    SnapInShear,
     /// Shear stiffness too low for the loss of friction.
-    LeapByFriction,
+    SnapByFriction,
     /// A side that is joined in part.
     PartlyJoined,
     /// Groups that the scene does not use.
@@ -69,8 +69,8 @@ impl Code {
         Code::Apart,
         Code::FarAway,
         Code::BadCells,
-        Code::LeapInShear,
-        Code::LeapByFriction,
+        Code::SnapInShear,
+        Code::SnapByFriction,
         Code::PartlyJoined,
         Code::UnusedGroups,
         Code::UnusedCells,

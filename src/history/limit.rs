@@ -7,11 +7,14 @@
 //!                        ─►──►┤               and again, until the first is too far
 //! ```
 //!
-//! Beyond the limit a stretch takes long, before it short.
+//! Beyond the limit a stretch takes long, before it short. What is left between is halved with the laws as they are: below the limit
+//! that takes a few iterations.
 
 use super::analysis::{Analysis, complete};
+use super::equilibrium::Ahead;
 use super::failure::stopped;
-use super::nowhere::farthest;
+use super::judge::{Judged, judge};
+use super::nowhere::{farthest, is_nowhere};
 use super::outcome::Outcome;
 use super::progress::{LoadIncrement, StepProgress};
 use super::viscous::viscous;
@@ -22,6 +25,8 @@ use crate::solver::Unconverged;
 
 /// Between the last equilibrium and where nothing holds any more lies at most this share of an increment.
 const NEAR: f64 = 0.05;
+/// The same after the last halving.
+const NEAREST: f64 = 1e-3;
 
 /// Load factor at which nothing has held.
 pub(super) struct LimitAt {
@@ -68,6 +73,45 @@ pub(super) fn stretch(
             }
         }
     }
+}
+
+/// Goes on from the last equilibrium towards the limit, by halves of what lies between. Returns the iterations.
+pub(super) fn close_in(
+    analysis: &mut Analysis,
+    leg: &LoadIncrement,
+    at: &mut StepProgress,
+    limit: Option<LimitAt>,
+) -> Result<usize> {
+    let Some(LimitAt { mut load_factor, .. }) = limit else { return Ok(0) };
+    let mut iterations = 0;
+    // where the search for a limit ended at the last equilibrium, the next increment of it is beyond
+    load_factor = load_factor.max((at.load_factor + NEAR * leg.part).min(leg.goal));
+    while load_factor - at.load_factor > NEAREST * leg.part && stopped(&analysis.stop).is_none() {
+        let (from, to) = (at.load_factor, 0.5 * (at.load_factor + load_factor));
+        let load = leg.start.at(to)?;
+        let ahead = Ahead { changes: (to - from) / at.last, near: false };
+        let found = match analysis.engine.solve(&analysis.state, &load, ahead, leg.complete) {
+            Ok(found) if !is_nowhere(&found, [&leg.start.at(from)?, &load], analysis) => found,
+            _ => {
+                load_factor = to;
+                continue;
+            }
+        };
+        iterations += found.iterations;
+        let Judged { error, solved, passed, work, .. } =
+            judge(analysis, leg.start, [at.most, at.energy, at.summed], [from, to], &found, false)?;
+        iterations += solved;
+        if error > 1.0 {
+            load_factor = to;
+            continue;
+        }
+        (at.last, at.load_factor) = (to - from, to);
+        (at.energy, at.summed) = (at.energy.max(passed), at.summed + work);
+        analysis.totals.parts += 1;
+        analysis.engine.accept();
+        analysis.state.accept(analysis.problem, found, load);
+    }
+    Ok(iterations)
 }
 
 /// A stretch that ends where it began if its points move by more than an edge: what slides so far under a load that something holds is

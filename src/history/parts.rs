@@ -15,7 +15,7 @@ use super::energy::carried;
 use super::equilibrium::{Ahead, Failure};
 use super::failure::{stopped, unusable};
 use super::judge::{Judged, judge};
-use super::limit::stretch;
+use super::limit::{close_in, stretch};
 use super::loading::Start;
 use super::nowhere::is_nowhere;
 use super::outcome::Outcome;
@@ -107,7 +107,8 @@ pub(super) fn advance(
         match stretch(analysis, leg, at, to - from, &mut limit)? {
             Outcome::Converged(more) => iterations += more,
             Outcome::Retry(why) => {
-                return Ok(Outcome::Retry(Unconverged { iterations: iterations + why.iterations, ..why }));
+                iterations += why.iterations + close_in(analysis, leg, at, limit)?;
+                return Ok(Outcome::Retry(Unconverged { iterations, ..why }));
             }
         }
     }

@@ -25,6 +25,9 @@ use crate::output::Snapshot;
 use crate::problem::{BoundInterface, BoundProbe, ProbeInput, Problem, WaterFields};
 use crate::solver::NodalSolution;
 
+/// Rounding of an energy, of that of a body strained by its own displacement.
+const ROUNDING: f64 = 1e-12;
+
 /// The model after an increment.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ModelState {
@@ -254,7 +257,14 @@ impl ModelState {
             }
         }
         let energies = [self.work, self.stored, self.dissipated, self.released].map(f64::abs);
-        self.largest = energies.into_iter().fold(self.largest, f64::max);
+        self.largest = energies.into_iter().fold(self.largest.max(self.rounding(problem)), f64::max);
+    }
+
+    /// Energy that displacements have by rounding: below it a balance says nothing.
+    fn rounding(&self, problem: &Problem) -> f64 {
+        let young = problem.model.subdomains.iter().map(|subdomain| subdomain.elasticity.young);
+        let moved = self.snapshot.u.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+        ROUNDING * young.fold(0.0, f64::max) * moved * moved * problem.model.thickness
     }
 
     /// Stresses of all bodies; none where displacements are not known.

@@ -140,7 +140,7 @@ impl Totals {
         }
         for (name, increment) in &self.unheld {
             let what = format!(
-                "subdomain {name}: nothing holds it from increment {increment} on, and nothing pushes it; it stays where it is"
+                "subdomain {name}: nothing holds it from increment {increment} on, and nothing pushes it; its place and the jumps around it say nothing from there on"
             );
             warnings.push(Warning::new(Code::Unheld, what, "a support, if it should not float"));
         }

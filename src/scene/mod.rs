@@ -42,7 +42,7 @@ pub use named::is_pattern;
 pub use op::{FormulaPlace, Variable};
 pub use pressure::{Drain, Flow, FlowEnd, Pressure};
 pub use read::{document, parse, read};
-pub use schema::scene_schema;
+pub use schema::{scene_schema, schema_of};
 pub use solution::{Control, Solution, Strategy, Tangent};
 pub use source::Source;
 pub use stages::{LeftShare, StepStage};

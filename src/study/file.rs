@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::scene::{self, OneOrMany};
+use crate::scene::{self, OneOrMany, schema_of};
 use crate::shape::Ends;
 
 /// Settings on top of a scene: keys as of `--set`, and what they are set to.
@@ -199,7 +199,7 @@ impl Measure {
 
 /// The schema of a study file.
 pub fn study_schema() -> Value {
-    schemars::schema_for!(Study).to_value()
+    schema_of::<Study>()
 }
 
 fn beside() -> String {

@@ -39,7 +39,7 @@ class Stored:
         return pd.read_csv(self.file("history.csv"), dtype={"step": str}, keep_default_na=False, na_values={}, encoding="utf-8")
 
     def summary(self) -> dict[str, Any]:
-        """summary.json; README "Results" says what it has."""
+        """summary.json; docs/RESULTS.md says what it has."""
         content: dict[str, Any] = json.loads(self.file("summary.json").read_text(encoding="utf-8"))
         return content
 
@@ -121,7 +121,7 @@ class Stored:
         return Midplane(self.folder / "midplane" / f"{self.interface(name)}.vtu")
 
     def along(self, name: str, rows: list[int]) -> pd.DataFrame:
-        """The law points of an interface in rows of the history, one below the other; README "Results" has the arrays.
+        """The law points of an interface in rows of the history, one below the other; docs/RESULTS.md has the arrays.
 
         Index (row, point); `s` is the fraction of the length that probes count by, 0 at one end and 1 at the other, `distance`
         the length from there; arrays of several components are NAME_n, NAME_t or NAME_x, NAME_y."""

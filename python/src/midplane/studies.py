@@ -38,7 +38,7 @@ def study(
     progress: bool = True,
     **more: Any,
 ) -> pd.DataFrame:
-    """Runs the scene at many points and returns study.csv, a row per point; README "Studies" has the columns.
+    """Runs the scene at many points and returns study.csv, a row per point; docs/STUDIES.md has the columns.
 
     `axes` are {key of the scene, or SUBDOMAIN.PARAMETER of a geometry: [values]}, or axes as a study file has them; `measures`
     {name: probe} for its last value, {name: ("peak", probe)}, ("at_peak", probe, probe of the peak), ("reached",), or as a study file has them;

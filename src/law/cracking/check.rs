@@ -79,7 +79,7 @@ impl Cracking {
                  chi0 tanphi0 c0 e^|alpha| / G_I = {tensile_loss:.3e}: the traction may snap just past the peak in shear"
             );
             let help = format!("{least:.2e} or more is safer");
-            warnings.push(Warning::new(Code::LeapInShear, what, help));
+            warnings.push(Warning::new(Code::SnapInShear, what, help));
         }
         let friction_loss = self.tan_friction - self.tan_friction_residual.unwrap_or(self.tan_friction);
         let steepest = c * friction_loss * self.alpha_tan_friction.abs().exp();
@@ -91,7 +91,7 @@ impl Cracking {
                  snap in shear"
             );
             let help = "raise tangential_stiffness if the interface will carry that";
-            warnings.push(Warning::new(Code::LeapByFriction, what, help));
+            warnings.push(Warning::new(Code::SnapByFriction, what, help));
         }
         warnings
     }

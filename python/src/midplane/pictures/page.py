@@ -35,7 +35,7 @@ SOFT = "#555555"  # of text that stands back
 MAP = "viridis"
 DASHES = (0, (4, 3))
 
-# what a law point does, README "Results": meaning, colour
+# what a law point does, docs/RESULTS.md: meaning, colour
 ABSENT, OPEN, TIED = -1, 4, 6
 STATUS = {
     0: ("elastic or sticking", GREY),
