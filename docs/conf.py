@@ -37,7 +37,7 @@ def taken_in(app, docname, content):
         content[0] = (ROOT / ELSEWHERE[docname]).read_text(encoding="utf-8").replace("](docs/", "](")
 
     def local(link):
-        to, _, anchor = link["to"].partition("#")
+        to = link["to"].partition("#")[0]
         if to.endswith(("CHANGELOG.md", "README.md")) and (at / to).resolve().parent == ROOT:
             return f"[{link['text']}]({'changes' if 'CHANGELOG' in to else 'overview'}.md)"
         inside = (ROOT / "docs" / to).resolve()

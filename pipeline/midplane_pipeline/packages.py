@@ -76,13 +76,12 @@ def main() -> None:
     if missing or size > LARGEST:
         sys.exit(f"missing in the package: {missing}; the program has {size / 1e6:.1f} MB")
     inside = "/usr/bin/midplane" if call else program.resolve()
+    told = re.search(r"^## \[(Unreleased|" + re.escape(version) + r")\]", Path("CHANGELOG.md").read_text(encoding="utf-8"), re.M)
     versions = {
         "program": said([*call, inside, "--version"]).split()[-1],
         "deb": said(["dpkg-deb", "-f", options.deb, "Version"]).strip().split("-")[0],
         "wheel": options.wheel.name.split("-")[1],
-        "changelog": version
-        if re.search(r"^## \[(Unreleased|" + re.escape(version) + r")\]", Path("CHANGELOG.md").read_text(encoding="utf-8"), re.M)
-        else "none",
+        "changelog": version if told else "none",
     }
     if set(versions.values()) != {version}:
         sys.exit(f"versions do not agree with Cargo.toml's {version}: {versions}")
@@ -97,9 +96,8 @@ def main() -> None:
     shown = said([python, "-c", NOTEBOOK], cwd=here, env=path).strip()
     if shown != version:
         sys.exit(f"the wheel says {shown}, Cargo.toml {version}")
-    print(
-        f"{options.deb.name}: {size / 1e6:.1f} MB program, {len(FILES)} files, first scene run{' in ' + str(root) if call else ''}; {options.wheel.name}: read and drawn"
-    )
+    where = f" in {root}" if call else ""
+    print(f"{options.deb.name}: {size / 1e6:.1f} MB program, {len(FILES)} files, first scene run{where}; {options.wheel.name}: read and drawn")
 
 
 if __name__ == "__main__":

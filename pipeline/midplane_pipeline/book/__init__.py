@@ -1,0 +1,1 @@
+"""The documents: keys from the schema, commands as a reader types them."""

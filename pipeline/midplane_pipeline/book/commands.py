@@ -89,7 +89,9 @@ def main() -> int:
     if options.program:
         paths.insert(0, str(options.program.resolve().parent))
     environment = {**os.environ, "PATH": ":".join(paths), "PYVISTA_OFF_SCREEN": "true", "MPLBACKEND": "agg"}
-    ran, left, wrong = 0, [], []
+    ran = 0
+    left: list[str] = []
+    wrong: list[str] = []
     for page in options.pages:
         with tempfile.TemporaryDirectory() as folder:
             for shown in SHOWN:

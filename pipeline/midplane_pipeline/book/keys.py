@@ -39,8 +39,8 @@ class Document:
         """The name of the definition that a schema refers to."""
         if not isinstance(schema, dict):
             return ""
-        reference = schema.get("$ref") or next(iter(schema.get("allOf", [])), {}).get("$ref", "")
-        return str(reference).rpartition("/")[2]
+        references = [schema, *schema.get("allOf", [])]
+        return next((str(of["$ref"]).rpartition("/")[2] for of in references if "$ref" in of), "")
 
     def options(self, schema: Schema) -> list[Schema]:
         """The alternatives of a schema but for none, references still in place."""
@@ -76,6 +76,7 @@ class Document:
         return SIMPLE.get(kind, kind)
 
     def array(self, schema: Schema, path: str) -> str:
+        """A list: pairs in brackets, others by what is in them."""
         if "prefixItems" in schema:
             return "[" + ", ".join(self.kind(item, path) for item in schema["prefixItems"]) + "]"
         item = self.kind(schema["items"], f"{path}[]")
@@ -83,6 +84,7 @@ class Document:
         return f"[{', '.join([item] * count)}]" if count and count <= 2 else f"list of {count or ''}{' ' if count else ''}{item}"
 
     def object(self, schema: Schema, path: str) -> str:
+        """An object: a section of its own, or names with values of one kind."""
         if schema.get("properties"):
             self.sections.append((path, schema))
             return f"[object](#{anchor(path)})"
@@ -92,6 +94,7 @@ class Document:
         return "object"
 
     def choices(self, options: list[Schema], path: str) -> str:
+        """Alternatives, each with what it means."""
         said = []
         for option in options:
             resolved = self.resolved(option)
