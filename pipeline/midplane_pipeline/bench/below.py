@@ -30,9 +30,7 @@ def main():
             for name, measured in seconds.items():
                 measured.append(run(options.program.resolve(), here / f"below_{name}.json")["seconds"])
         springs, cracking = (min(measured) for measured in seconds.values())
-        print(
-            f"{options.size}, fields of {fields}: springs {springs:.3f} s, cracking law below its surface {cracking:.3f} s, ratio {cracking / springs:.2f}"
-        )
+        print(f"{options.size}, fields of {fields}: springs {springs:.3f} s, cracking law below its surface {cracking:.3f} s, ratio {cracking / springs:.2f}")
 
 
 if __name__ == "__main__":

@@ -25,8 +25,10 @@ SCENES = {
     "friction, history only": ("friction_block", ["--set=steps.1.increments={n}", "--set=output.fields=none"]),
 }
 PRICED = {
-    "linear, 40 increments with fields": ("cantilever", ["--set=steps.0.increments=40", "--set=output.fields=every",
-                                                         "--set=subdomains.lower.parameters.edges=200"]),
+    "linear, 40 increments with fields": (
+        "cantilever",
+        ["--set=steps.0.increments=40", "--set=output.fields=every", "--set=subdomains.lower.parameters.edges=200"],
+    ),
     "cracks along a path": ("dcb", []),
     "cracks of a beam": ("notched_beam", []),
     "parts that come and go": ("lifts", ["--set=output.fields=every"]),

@@ -1,13 +1,12 @@
 """Draw the tables of bench.scenes and bench.peers.compare: time against dofs, cost of an iteration against dofs.
 
-    python -m midplane_pipeline.bench.plot results/bench/scenes.csv [results/bench/peers.csv ...] -o docs/bench.png"""
+python -m midplane_pipeline.bench.plot results/bench/scenes.csv [results/bench/peers.csv ...] -o docs/bench.png"""
 
 import argparse
 from collections import defaultdict
 from pathlib import Path
 
 import matplotlib.pyplot as plt
-
 from midplane.pictures import page
 from midplane.pictures.page import BLUE, GREY, ORANGE, VERMILLION, sign
 

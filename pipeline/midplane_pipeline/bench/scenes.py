@@ -41,11 +41,7 @@ def folder(program, size, out):
     here = out / size
     edges = dict(zip(("lower", "upper"), SIZES[size]))
     numbers = {"edges": 1, "rows": 2}
-    sets = [
-        f"--set=subdomains.{body}.parameters.{name}={count // part}"
-        for body, count in edges.items()
-        for name, part in numbers.items()
-    ]
+    sets = [f"--set=subdomains.{body}.parameters.{name}={count // part}" for body, count in edges.items() for name, part in numbers.items()]
     subprocess.run([program, "mesh", ROOT / "geo/shear_box", "-q", "-o", here, *sets], check=True)
     for body in edges:
         newest = max((here / "mesh").glob(f"{body}-*.msh"), key=lambda path: path.stat().st_mtime)

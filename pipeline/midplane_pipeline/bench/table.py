@@ -1,6 +1,6 @@
 """Put the measured tables into docs/BENCH.md, below its line `<!-- tables -->`.
 
-    python -m midplane_pipeline.bench.table docs/BENCH.md results/bench/scenes.csv results/bench/peers*.csv"""
+python -m midplane_pipeline.bench.table docs/BENCH.md results/bench/scenes.csv results/bench/peers*.csv"""
 
 import csv
 import math

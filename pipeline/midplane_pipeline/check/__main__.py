@@ -59,9 +59,7 @@ def check(results, scene, energy, known, faults):
             return ""
     collections = list(results.glob("*.pvd"))
     stored = scene.get("output", {}).get("fields", "every") != "none"
-    if not faults.expect(
-        len(collections) == stored, f"{results}: {len(collections)} .pvd files, not {int(stored)}"
-    ):
+    if not faults.expect(len(collections) == stored, f"{results}: {len(collections)} .pvd files, not {int(stored)}"):
         return ""
     summary = Stored(results).summary()
     missing = SUMMARY_KEYS - summary.keys()
@@ -140,7 +138,9 @@ def check_known(results, rows, fields, known, faults):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.check", description=__doc__,
+    parser = argparse.ArgumentParser(
+        prog="python -m midplane_pipeline.check",
+        description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         fromfile_prefix_chars="@",
     )

@@ -88,10 +88,7 @@ def increases(scene, results, rows, columns):
         for row in (row for row in rows if row["step"] == step["name"]):
             now = row["load_factor"]
             done = [(before[name], row[name], (now - level) * way) for name, way in (ways or {}).items()]
-            done += [
-                (a + (b - a) * level, a + (b - a) * now, row[name] - before[name])
-                for name, a, b in ramps or []
-            ]
+            done += [(a + (b - a) * level, a + (b - a) * now, row[name] - before[name]) for name, a, b in ramps or []]
             work = sum(0.5 * (f + g) * way for f, g, way in done)
             yield (work, sum(0.5 * abs((g - f) * way) for f, g, way in done)) if known else None
             before, level = row, now

@@ -22,9 +22,7 @@ def read_history(path, scene, faults):
     columns = list(rows[0]) if rows else []
     probes = list(scene.get("output", {}).get("history", {}))
     wanted = HISTORY_COLUMNS + probes
-    faults.expect(
-        columns[: len(wanted)] == wanted, f"{path}: columns are {columns}, should begin with {wanted}"
-    )
+    faults.expect(columns[: len(wanted)] == wanted, f"{path}: columns are {columns}, should begin with {wanted}")
     reactions = supports(scene)
     faults.expect(
         set(columns[len(wanted) : -1]) == reactions,

@@ -56,12 +56,7 @@ def check_balance(results, scene, summary, rows, interfaces, faults):
     size = max(largest.max(initial=np.finfo(float).tiny), *joints, *reactions, 0.0)
     arm = max((np.abs(grid.points[:, :2]).max() for grid in interfaces.values()), default=1.0)
     sides = summary["sizes"]["interfaces"]
-    curved = {
-        subdomain
-        for name, grid in interfaces.items()
-        if not is_straight(grid)
-        for subdomain in sides[name]["subdomains"]
-    }
+    curved = {subdomain for name, grid in interfaces.items() if not is_straight(grid) for subdomain in sides[name]["subdomains"]}
 
     def error(parts, moments=True):
         rest = np.abs(np.sum(parts, axis=0)) / [size, size, size * arm]
@@ -80,7 +75,6 @@ def check_balance(results, scene, summary, rows, interfaces, faults):
     for subdomain, rest in errors.items():
         faults.expect(
             rest <= allowed,
-            f"{results}: loads, reactions and interface tractions on {subdomain}"
-            f" leave {rest:.1e} of the largest force",
+            f"{results}: loads, reactions and interface tractions on {subdomain} leave {rest:.1e} of the largest force",
         )
     return whole, max(errors.values())

@@ -45,9 +45,7 @@ def check_subdomain(path, grid, name, scene, faults):
 
     faults.expect((first >= second).all(), f"{path}: principal_stress is not in order s1 >= s2")
     faults.expect(
-        close(first + second, xx + yy)
-        and close(first - second, np.hypot(xx - yy, 2 * xy))
-        and close(third, zz),
+        close(first + second, xx + yy) and close(first - second, np.hypot(xx - yy, 2 * xy)) and close(third, zz),
         f"{path}: principal_stress does not belong to stress",
     )
     faults.expect(not yz.any() and not xz.any(), f"{path}: stress yz or xz in a plane scene")

@@ -25,12 +25,13 @@ from midplane.pictures.principal import draw_principal_stress
 from midplane.pictures.results import Results, View
 from midplane.pictures.traction import draw_along
 
+from midplane_pipeline.exact.solutions import SOLUTIONS
+from midplane_pipeline.results.entries import entry_of
+from midplane_pipeline.results.told import told
+
 from . import view_options
 from .coupling import draw_coupling
 from .deviation import deviation
-from midplane_pipeline.results.entries import entry_of
-from midplane_pipeline.exact.solutions import SOLUTIONS
-from midplane_pipeline.results.told import told
 
 FEW = 4  # interfaces that have pictures of their own without being asked for
 
@@ -51,7 +52,9 @@ def parse_exact(text):
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.draw", description=__doc__,
+    parser = argparse.ArgumentParser(
+        prog="python -m midplane_pipeline.draw",
+        description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         fromfile_prefix_chars="@",
         epilog="An argument @FILE stands for the arguments in that file, one a line.",

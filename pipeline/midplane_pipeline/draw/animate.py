@@ -25,10 +25,10 @@ from midplane.pictures.results import Results
 from midplane.stored import text_rows
 from PIL import Image
 
-from . import history
-from . import view_options
 from midplane_pipeline.results.columns import read_columns
 from midplane_pipeline.results.told import told
+
+from . import history, view_options
 
 MOST = 100  # frames, if --every does not say otherwise
 SECONDS = 8.0  # about as long, without the last frame, which stays
@@ -183,7 +183,7 @@ def write_mp4(images, path, seconds):
     """The frames through ffmpeg."""
     width, height = images[0].size
     raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {1 / seconds:.6g} -i - -an".split()
-    made = "-c:v libx264 -crf 20 -pix_fmt yuv420p -movflags +faststart".split()
+    made = ["-c:v", "libx264", "-crf", "20", "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
     frames = images + [images[-1]] * round(LAST / seconds)
     command = ["ffmpeg", "-y", "-loglevel", "error", *raw, *made, str(path)]
     subprocess.run(command, input=b"".join(image.tobytes() for image in frames), check=True)

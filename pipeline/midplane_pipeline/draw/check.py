@@ -32,9 +32,7 @@ class Joint:
         grid = Vtu(path).grid()
         kinds, points = grid["kind"], grid.points[:, :2]
         cells = np.split(grid.cell_connectivity, grid.cell_offsets[1:-1])
-        self.lines = {
-            kind: [points[cells[i]] for i in np.flatnonzero(kinds == kind)] for kind in range(LAW_POINT)
-        }
+        self.lines = {kind: [points[cells[i]] for i in np.flatnonzero(kinds == kind)] for kind in range(LAW_POINT)}
         at = np.concatenate([cells[i] for i in np.flatnonzero(kinds == LAW_POINT)])
         self.law_points, self.normals = points[at], grid["normal"][at, :2]
         self.parents = {EDGE_A: set(grid["edge_a"][kinds == SEGMENT]), EDGE_B: set(grid["edge_b"][kinds == SEGMENT])}
@@ -110,9 +108,7 @@ def draw_quality(joints, meshes, units, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="such as results/compression/check")
     parser.add_argument("--units", default="m", help="unit of length, default: m")
     arguments = parser.parse_args()

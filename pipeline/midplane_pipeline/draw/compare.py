@@ -18,8 +18,9 @@ from midplane.pictures.interfaces import draw_interfaces
 from midplane.pictures.principal import draw_principal_stress
 from midplane.pictures.results import Results
 
-from . import view_options
 from midplane_pipeline.results.told import told
+
+from . import view_options
 
 FIELDS = {"displacement": draw_displacement, "stress": draw_principal_stress, "interfaces": draw_interfaces}
 

@@ -63,9 +63,7 @@ def draw(axis, runs, friction):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="midplane")
     parser.add_argument("path", type=Path, help="path of the point, such as geo/shear/path.json")
     parser.add_argument("results", type=Path, help="where to leave all, such as results/shear")
@@ -98,10 +96,7 @@ def main():
         sys.exit(f"{arguments.results}: that, or {spread:.1e} between law points, is more than {arguments.within:g}")
     axes[0].set(ylim=(0, 26), ylabel="shear stress $\\tau$ [MPa]")
     title = "The mesh carries the curve of one point"
-    subtitle = (
-        f"Example 2: law points apart by at most {page.power_of_ten(spread)} of the peak,"
-        f" from the curve of one point by {page.power_of_ten(deviation)}"
-    )
+    subtitle = f"Example 2: law points apart by at most {page.power_of_ten(spread)} of the peak, from the curve of one point by {page.power_of_ten(deviation)}"
     page.heading(axes[0], title, subtitle)
     page.key_below(
         figure,

@@ -17,10 +17,11 @@ from midplane.pictures import labels, page
 from midplane.pictures.page import DASHES, GREY, MARKERS, PALE, RUNS, SOFT
 from midplane.pictures.results import Results
 
-from . import measured
 from midplane_pipeline.exact.solutions import SOLUTIONS
 from midplane_pipeline.results.columns import read_columns, until
 from midplane_pipeline.results.told import told
+
+from . import measured
 
 LEVELS = [DASHES, (0, (1, 2)), (0, (6, 2, 1, 2))]
 
@@ -118,9 +119,7 @@ def labelled_file(text):
 
 def parse(arguments=None):
     """The options; `arguments` in place of those of the command line."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, fromfile_prefix_chars="@"
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, fromfile_prefix_chars="@")
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/tension/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/tension")
     axis = {"type": column, "metavar": "COLUMN=LABEL", "required": True}

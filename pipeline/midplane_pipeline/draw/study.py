@@ -69,13 +69,9 @@ def write_page(study, out):
             xaxis={"type": "log", "title": title},
             yaxis={"type": "log", "exponentformat": "power"},
         )
-        parts.append(
-            f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>"
-        )
+        parts.append(f"<div id='f{k}' style='height:560px'></div><script>Plotly.newPlot('f{k}', {figure.to_json()}, {{}}, {{responsive: true}})</script>")
     head = f"<!DOCTYPE html><meta charset='utf-8'><title>{page_text(study['study'])}</title><script>{get_plotlyjs()}</script>"
-    out.write_text(
-        f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>"
-    )
+    out.write_text(f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>")
 
 
 def picture(study, out):

@@ -54,9 +54,7 @@ def inclusion(scene, results):
     law, (stiff, soft) = entry["law"], (scene["materials"][name] for name in ("stiff", "soft"))
     radius = 0.5 * sizes(results.subdomains["inclusion"])[0]
     springs = law["normal_stiffness"], law["tangential_stiffness"]
-    amplitudes = disc(
-        radius, stiff["young"], stiff["poisson"], soft["young"], soft["poisson"], *springs
-    )
+    amplitudes = disc(radius, stiff["young"], stiff["poisson"], soft["young"], soft["poisson"], *springs)
     pull = scene["steps"][0]["load"]["plate.right"]["traction"][0]
     places = results.interfaces["rim"].points[:, :2]
     s, angle = distances(results, "rim"), np.arctan2(places[:, 1], places[:, 0])

@@ -13,8 +13,9 @@ import numpy as np
 from midplane import scene_file
 from midplane.pictures.traction import distances
 
-from .solution import Exact
 from midplane_pipeline.results.told import told
+
+from .solution import Exact
 
 # tolerances of N [MN/m], M [MN], V [MN/m] and displacements [m]
 NEAR = {"N": 1e-4, "M": 2e-5, "V": 2e-5, "u": 1e-6}
@@ -150,9 +151,7 @@ def lining(scene, results):
         outward = np.column_stack([np.cos(angle), np.sin(angle)])
         across = np.column_stack([-outward[:, 1], outward[:, 0]])
         tangent = np.column_stack([normal[:, 1], -normal[:, 0]])  # n is on its left
-        (nr, nc), (tr, tc) = (
-            [(direction * other).sum(axis=1) for other in (outward, across)] for direction in (normal, tangent)
-        )
+        (nr, nc), (tr, tc) = ([(direction * other).sum(axis=1) for other in (outward, across)] for direction in (normal, tangent))
         s = distances(results, name)
         traction[f"{name}.n"] = s, nr * nr * radial + 2 * nr * nc * shear + nc * nc * hoop
         traction[f"{name}.t"] = s, nr * tr * radial + (nr * tc + nc * tr) * shear + nc * tc * hoop

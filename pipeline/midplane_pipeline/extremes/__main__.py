@@ -19,12 +19,9 @@ from .rows import ROWS
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.extremes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.extremes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("midplane", type=Path, help="the program")
-    parser.add_argument(
-        "-o", "--out", type=Path, default=Path("results/extremes"), help="folder of the report"
-    )
+    parser.add_argument("-o", "--out", type=Path, default=Path("results/extremes"), help="folder of the report")
     parser.add_argument("--docs", type=Path, help="folder that gets EXTREMES.md and its curves as well")
     parser.add_argument("--quick", action="store_true", help="shorter sweeps, for every change")
     parser.add_argument("rows", nargs="*", help="only these, such as B9")
@@ -37,11 +34,7 @@ def main():
     done = []
     with tempfile.TemporaryDirectory(prefix="extremes-") as folder:
         for number, tried, expected, function in chosen:
-            done.append(
-                attempt(
-                    number, tried, expected, function, Program(arguments.midplane, folder), arguments.quick
-                )
-            )
+            done.append(attempt(number, tried, expected, function, Program(arguments.midplane, folder), arguments.quick))
             print(report.line(done[-1]), flush=True)
     report.write(done, arguments.out, arguments.docs)
     missed = [entry for entry in done if not entry.good]

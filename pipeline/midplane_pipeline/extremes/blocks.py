@@ -1,9 +1,9 @@
 """Uniform scenes: two blocks that carry one state along their joint, and the paths of one law point.
 
-        p p p p p
-       ┌─┬──┬──┬─┐   b: every node is driven in x
-       ├─┴─┬┴──┴─┤   joint
-       └───┴─────┘   a: every node is held in x, rollers below
+ p p p p p
+┌─┬──┬──┬─┐   b: every node is driven in x
+├─┴─┬┴──┴─┤   joint
+└───┴─────┘   a: every node is held in x, rollers below
 """
 
 import numpy as np

@@ -61,9 +61,7 @@ def ring_under_pressure():
         "fix": {**{f"{body}.left": ["x"] for body in "ab"}, **{f"{body}.right": ["y"] for body in "ab"}},
         "load": {"a.bottom": {"pressure": P}},
     }
-    return scene(
-        {"a": (YOUNG, 0.2), "b": (YOUNG, 0.2)}, {"joint": ("a.top", "b.bottom", elastic(KN))}, [step]
-    )
+    return scene({"a": (YOUNG, 0.2), "b": (YOUNG, 0.2)}, {"joint": ("a.top", "b.bottom", elastic(KN))}, [step])
 
 
 def lame_rings(a=1.0, b=1.5, c=2.0, nu=0.2):

@@ -1,10 +1,10 @@
 """Meshes written straight as MSH 4.1 text, so that a thousand scenes need no mesher.
 
-    top          a body of cells with the physical curves bottom, right, top, left of a rectangle in the
-  ┌──┬───┐       parameters (s, r) that a function `to` carries into the plane, and its corners as points
-  ├──┼───┤       sw, se, ne, nw
-  └──┴───┘
-   bottom
+  top          a body of cells with the physical curves bottom, right, top, left of a rectangle in the
+┌──┬───┐       parameters (s, r) that a function `to` carries into the plane, and its corners as points
+├──┼───┤       sw, se, ne, nw
+└──┴───┘
+ bottom
 """
 
 from dataclasses import dataclass, field
@@ -41,18 +41,14 @@ class Mesh:
         for i in range(len(self.corners)):
             entities.append(f"{len(points) + i + 1} 0 0 0 0")
         bare = [f"{number} 0 0 0 1 {tag}" for dimension, number, tag, *_ in numbered if dimension == 0]
-        lines = [
-            f"{number} 0 0 0 0 0 0 1 {tag} 0" for dimension, number, tag, *_ in numbered if dimension > 0
-        ]
+        lines = [f"{number} 0 0 0 0 0 0 1 {tag} 0" for dimension, number, tag, *_ in numbered if dimension > 0]
         sizes = [len(bare) + len(entities), counts[1], counts[2], 0]
         parts = [f"$MeshFormat\n{version} 0 8\n$EndMeshFormat"]
         listed = names if self.names is None else self.names
         if listed:
             texts = [f'{dimension} {tag} "{name}"' for dimension, tag, name in listed]
             parts.append("\n".join(["$PhysicalNames", str(len(texts)), *texts, "$EndPhysicalNames"]))
-        parts.append(
-            "\n".join(["$Entities", " ".join(map(str, sizes)), *bare, *entities, *lines, "$EndEntities"])
-        )
+        parts.append("\n".join(["$Entities", " ".join(map(str, sizes)), *bare, *entities, *lines, "$EndEntities"]))
         parts.append(self.node_text(len(points)))
         parts.append(element_text(numbered))
         return "\n".join(parts) + "\n"
@@ -71,9 +67,7 @@ class Mesh:
 
     def group(self, name):
         """Nodes of a group."""
-        return np.unique(
-            np.concatenate([nodes.ravel() for _, group, _, nodes in self.blocks if group == name])
-        )
+        return np.unique(np.concatenate([nodes.ravel() for _, group, _, nodes in self.blocks if group == name]))
 
 
 def element_text(numbered):
@@ -132,12 +126,7 @@ def rectangle(s, r, shape, to=same, body="body"):
 
         def with_mids(rows, closed):
             corners = rows.shape[1]
-            return np.array(
-                [
-                    [*row, *(mid(row[i], row[(i + 1) % corners]) for i in range(corners if closed else 1))]
-                    for row in rows.tolist()
-                ]
-            )
+            return np.array([[*row, *(mid(row[i], row[(i + 1) % corners]) for i in range(corners if closed else 1))] for row in rows.tolist()])
 
         cells = with_mids(cells, True)
         curves = {name: with_mids(rows, False) for name, rows in curves.items()}

@@ -53,12 +53,7 @@ def derivatives(kind):
     rule = []
     for xi in (-ROOT3, ROOT3):
         for eta in (-ROOT3, ROOT3):
-            dn = (
-                np.stack(
-                    [corners[:, 0] * (1 + corners[:, 1] * eta), corners[:, 1] * (1 + corners[:, 0] * xi)], -1
-                )
-                / 4
-            )
+            dn = np.stack([corners[:, 0] * (1 + corners[:, 1] * eta), corners[:, 1] * (1 + corners[:, 0] * xi)], -1) / 4
             rule.append((dn, WIDE(1)))
     return rule
 

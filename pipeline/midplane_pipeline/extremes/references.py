@@ -67,9 +67,7 @@ def references(t, coupling):
     )
     yield "case 9, T3 8:12", 4e3 * 8, lambda k: Strip(kn=k, kt=k).scene(coupling=coupling), meshes, precise
     text, meshes = case_3()
-    force = np.concatenate(
-        [nothing_on(meshes["a"]), pressed(meshes["b"], "top", lambda x, y: 10 + 3 * x * y)]
-    )
+    force = np.concatenate([nothing_on(meshes["a"]), pressed(meshes["b"], "top", lambda x, y: 10 + 3 * x * y)])
     text["interfaces"]["joint"]["coupling"] = coupling
     precise = Precise(
         t.program,

@@ -3,8 +3,9 @@
 import base64
 from dataclasses import dataclass
 
-from . import curves
 from midplane_pipeline.draw.page_text import page_text
+
+from . import curves
 from .row import Trial
 
 
@@ -115,9 +116,7 @@ summary { cursor: pointer; padding: .3em; border-bottom: 1px solid #ddd } code {
 
 def page(entries, pictures, out):
     """Everything in one file: every claim of every row, and the curves."""
-    parts = [
-        f"<!doctype html><html lang=en><meta charset=utf-8><title>Extremes</title><style>{STYLE}</style>"
-    ]
+    parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>Extremes</title><style>{STYLE}</style>"]
     parts += ["<h1>Extremes</h1>", *(f"<p>{page_text(text)}</p>" for text in INTRODUCTION.split("\n\n"))]
     parts.append(f"<p><strong>{page_text(head(entries))}</strong></p>")
     for entry in entries:
@@ -125,9 +124,7 @@ def page(entries, pictures, out):
         title = page_text(f"{entry.number}  {entry.tried}")
         about = f"{entry.margin()}, {entry.runs} runs, {entry.seconds:.1f} s"
         opened = "" if entry.good and not entry.trial.curves else " open"
-        parts.append(
-            f"<details{opened}><summary{state}><strong>{title}</strong> ({page_text(about)})</summary>"
-        )
+        parts.append(f"<details{opened}><summary{state}><strong>{title}</strong> ({page_text(about)})</summary>")
         parts.append(f"<p>Expected: {page_text(entry.expected)}</p>")
         parts += [f"<p>{page_text(note)}</p>" for note in entry.trial.notes]
         for curve in entry.trial.curves:
@@ -136,9 +133,7 @@ def page(entries, pictures, out):
         parts.append("<table><tr><th>claim<th>got<th>limit<th>margin</tr>")
         for claim in entry.trial.claims:
             margin = "" if claim.margin is None else f"{claim.margin:.2g}"
-            cells = "".join(
-                f"<td>{page_text(text)}" for text in (claim.what, claim.got, claim.limit, margin)
-            )
+            cells = "".join(f"<td>{page_text(text)}" for text in (claim.what, claim.got, claim.limit, margin))
             parts.append(f"<tr{'' if claim.good else ' class=missed'}>{cells}</tr>")
         parts.append("</table></details>")
     return "\n".join(parts) + "\n"

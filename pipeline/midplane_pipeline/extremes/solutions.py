@@ -13,9 +13,7 @@ from .scenes import elastic, number, scene
 
 def lame(e, nu, plane="strain"):
     """λ of the plane state and μ."""
-    return (e * nu / ((1 + nu) * (1 - 2 * nu)) if plane == "strain" else e * nu / (1 - nu * nu)), e / (
-        2 * (1 + nu)
-    )
+    return (e * nu / ((1 + nu) * (1 - 2 * nu)) if plane == "strain" else e * nu / (1 - nu * nu)), e / (2 * (1 + nu))
 
 
 @dataclass
@@ -64,9 +62,7 @@ class Patch:
         c = [cos * jt - sin * jn, sin * jt + cos * jn]
         rotation = np.array([[cos, -sin], [sin, cos]])
         gradient = rotation @ np.array([[ett, shear], [0.0, enn]]) @ rotation.T
-        return [
-            f"{number(c[d])} + {number(gradient[d, 0])}*{x} + {number(gradient[d, 1])}*{y}" for d in (0, 1)
-        ]
+        return [f"{number(c[d])} + {number(gradient[d, 0])}*{x} + {number(gradient[d, 1])}*{y}" for d in (0, 1)]
 
     def meshes(self, s_a, s_b, shape, rows=(3, 4)):
         """Bodies a and b; s: places along the joint from −0.5 to 0.5, or their number."""
@@ -162,9 +158,7 @@ class Bending:
 
     def scene(self, **joint):
         displace = {}
-        for side, (body, groups) in enumerate(
-            {"a": ("left", "bottom", "right"), "b": ("left", "top", "right")}.items()
-        ):
+        for side, (body, groups) in enumerate({"a": ("left", "bottom", "right"), "b": ("left", "top", "right")}.items()):
             e, k, w, jump = map(number, self.coefficients(side))
             nu = number(self.nu)
             x = f"-{nu}*{e}*x - 0.5*{k}*(y*y + {nu}*x*x) - {w}*y"

@@ -1,7 +1,7 @@
 """The licences of all crates in Cargo.lock.
 
-    python -m midplane_pipeline.house.licences check    every crate may be used under one of those that this project takes, and docs/LICENCES.md lists it
-    python -m midplane_pipeline.house.licences write    writes docs/LICENCES.md
+python -m midplane_pipeline.house.licences check    every crate may be used under one of those that this project takes, and docs/LICENCES.md lists it
+python -m midplane_pipeline.house.licences write    writes docs/LICENCES.md
 """
 
 import json
@@ -13,8 +13,21 @@ from midplane_pipeline.places import ROOT
 
 LIST = ROOT / "docs/LICENCES.md"
 TAKEN = {
-    "MIT", "Apache-2.0", "Apache-2.0 WITH LLVM-exception", "BSD-1-Clause", "BSD-2-Clause", "BSD-3-Clause", "ISC", "MIT-0", "Unicode-3.0",
-    "Unlicense", "Zlib", "0BSD", "CC0-1.0", "BSL-1.0", "NCSA",
+    "MIT",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-1-Clause",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "ISC",
+    "MIT-0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+    "0BSD",
+    "CC0-1.0",
+    "BSL-1.0",
+    "NCSA",
 }
 
 

@@ -1,6 +1,6 @@
 """Put the hashes of all files of every pinned version into a requirements.txt, so that pip installs nothing else.
 
-    python -m midplane_pipeline.house.pin [pipeline/requirements.txt]    after raising a version, or after `pip freeze` into that file
+python -m midplane_pipeline.house.pin [pipeline/requirements.txt]    after raising a version, or after `pip freeze` into that file
 """
 
 import re

@@ -22,6 +22,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from midplane import scene_file
+
 from midplane_pipeline.places import ROOT
 
 SECONDS = 10.0

@@ -1,6 +1,6 @@
 """Put what `make damage-test` and `make fuzz` have found into docs/ROBUSTNESS.md.
 
-    python -m midplane_pipeline.robust.docs <results/damage/report.json> <results/fuzz/report.json> <docs/ROBUSTNESS.md>
+python -m midplane_pipeline.robust.docs <results/damage/report.json> <results/fuzz/report.json> <docs/ROBUSTNESS.md>
 """
 
 import json

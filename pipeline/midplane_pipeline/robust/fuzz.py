@@ -20,6 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from midplane import scene_file
+
 from midplane_pipeline.places import ROOT
 
 CORPUS = ROOT / "tests/fuzz/corpus"
@@ -179,7 +180,14 @@ class Target:
 
     def report(self):
         rate = round(self.runs / self.seconds) if self.seconds else 0
-        return {"target": self.name, "runs": self.runs, "runs per second": rate, "most memory [MB]": self.memory, "slowest [s]": self.slowest, "faults": self.faults}
+        return {
+            "target": self.name,
+            "runs": self.runs,
+            "runs per second": rate,
+            "most memory [MB]": self.memory,
+            "slowest [s]": self.slowest,
+            "faults": self.faults,
+        }
 
     def minimise(self):
         """The smallest set of inputs that reaches as much, as far as small files do."""
@@ -219,7 +227,9 @@ def main():
     (out / "report.json").write_text(json.dumps(report, indent=1) + "\n")
     faults = [f"{target.name}: {fault['what']}" for target in targets for fault in target.faults]
     for target in report["targets"]:
-        print(f"{target['target']:<12}{target['runs']:>10} runs {target['runs per second']:>7}/s {target['most memory [MB]']:>5} MB, slowest {target['slowest [s]']} s, {len(target['faults'])} faults")
+        print(
+            f"{target['target']:<12}{target['runs']:>10} runs {target['runs per second']:>7}/s {target['most memory [MB]']:>5} MB, slowest {target['slowest [s]']} s, {len(target['faults'])} faults"
+        )
     print("\n".join(faults))
     print(f"{sum(target.runs for target in targets)} runs, {len(faults)} faults")
     sys.exit(1 if faults else 0)

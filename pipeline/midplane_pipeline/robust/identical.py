@@ -95,10 +95,7 @@ def summaries_differ(before, after):
 def compare(before, after):
     """All differences of two results folders; and how many files were compared."""
     readers = {".vtu": fields_differ, ".csv": texts_differ, ".pvd": texts_differ, ".json": summaries_differ}
-    listed = [
-        sorted(str(file.relative_to(of)) for file in of.rglob("*") if file.suffix in readers and "mesh" not in file.parts)
-        for of in (before, after)
-    ]
+    listed = [sorted(str(file.relative_to(of)) for file in of.rglob("*") if file.suffix in readers and "mesh" not in file.parts) for of in (before, after)]
     if listed[0] != listed[1]:
         return [f"files {sorted(set(listed[0]) ^ set(listed[1]))} are on one side only"], 0
     found = [(name, readers[Path(name).suffix](before / name, after / name)) for name in listed[0]]

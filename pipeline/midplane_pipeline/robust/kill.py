@@ -22,7 +22,6 @@ from pathlib import Path
 
 from midplane_pipeline.places import ROOT
 
-
 # what a run is disturbed in: a path that snaps, parts that come and go, friction, a linear scene with fields of every
 # increment, a scene whose fields are stored at its end only
 SCENES = {
@@ -68,8 +67,22 @@ def digest(path):
 
 def is_measured(key):
     """Quantities of the process, not of the model; one that goes on factors once more."""
-    names = ("time", "peak_memory_bytes", "resumed", "factorisations", "seconds", "processor", "stages", "peak_memory", "reused",
-             "load_average", "seconds_min", "seconds_median", "seconds_spread", "processor_seconds")
+    names = (
+        "time",
+        "peak_memory_bytes",
+        "resumed",
+        "factorisations",
+        "seconds",
+        "processor",
+        "stages",
+        "peak_memory",
+        "reused",
+        "load_average",
+        "seconds_min",
+        "seconds_median",
+        "seconds_spread",
+        "processor_seconds",
+    )
     return key in names or key.startswith("seconds.")
 
 

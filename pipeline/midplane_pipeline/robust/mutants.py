@@ -34,7 +34,14 @@ AREAS = {
         ["coupling", "joints", "gap", "ends", "junctions", "patch", "round", "shared_mesh", "fractures", "curves", "check", "warnings"],
     ),
     "projected operator": (
-        ["src/coupling/projected.rs", "src/coupling/pointwise.rs", "src/coupling/jump.rs", "src/coupling/slaves.rs", "src/coupling/place.rs", "src/sparse/banded.rs"],
+        [
+            "src/coupling/projected.rs",
+            "src/coupling/pointwise.rs",
+            "src/coupling/jump.rs",
+            "src/coupling/slaves.rs",
+            "src/coupling/place.rs",
+            "src/sparse/banded.rs",
+        ],
         [],
         ["coupling::", "sparse::"],
         ["coupling", "ends", "patch", "round", "gap", "junctions", "cantilever", "stiff"],
@@ -44,8 +51,20 @@ AREAS = {
         [],
         ["law::"],
         [
-            "law_closed_forms", "law_coulomb", "law_closing", "law_extremes", "law_steps", "law_tangent", "law_path", "law_space", "law_reference", "fit",
-            "law_coulomb_way", "law_invariants", "law_cohesive", "varying",
+            "law_closed_forms",
+            "law_coulomb",
+            "law_closing",
+            "law_extremes",
+            "law_steps",
+            "law_tangent",
+            "law_path",
+            "law_space",
+            "law_reference",
+            "fit",
+            "law_coulomb_way",
+            "law_invariants",
+            "law_cohesive",
+            "varying",
         ],
     ),
     "load history": (
@@ -53,17 +72,35 @@ AREAS = {
         # how an equilibrium is sought where Newton's method finds none decides no answer: what is found is one, by the checks of others
         [f"src/history/{name}.rs" for name in ("clock", "memory", "progress", "rest", "stretch", "dissipate", "viscous")],
         ["history::"],
-        ["loads", "ramp", "steps", "stages", "opening", "own_strains", "in_situ", "snapback", "water", "structures", "resume", "cycles", "energies", "increments", "faults", "tunnel", "units"],
+        [
+            "loads",
+            "ramp",
+            "steps",
+            "stages",
+            "opening",
+            "own_strains",
+            "in_situ",
+            "snapback",
+            "water",
+            "structures",
+            "resume",
+            "cycles",
+            "energies",
+            "increments",
+            "faults",
+            "tunnel",
+            "units",
+        ],
     ),
 }
-SWITCH = '''
+SWITCH = """
 /// True for the mutant that the environment names.
 pub fn mutant(number: u32) -> bool {
     static CHOSEN: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
     let chosen = || std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
     *CHOSEN.get_or_init(chosen) == number
 }
-'''
+"""
 # a mutant that takes this many times as long as the right program, and so many seconds more, does not end
 SLOWER, MORE = 3.0, 20.0
 
@@ -148,7 +185,12 @@ class Mutants:
         while True:
             self.write()
             ended, messages = build(self.work, "check", "--lib")
-            spans = [span for message in messages if message["reason"] == "compiler-message" and message["message"]["level"] == "error" for span in message["message"]["spans"]]
+            spans = [
+                span
+                for message in messages
+                if message["reason"] == "compiler-message" and message["message"]["level"] == "error"
+                for span in message["message"]["spans"]
+            ]
             if ended.returncode == 0:
                 break
             bad = {self.nearest(span)["number"] for span in spans if span["file_name"].startswith("src/")}
@@ -161,7 +203,11 @@ class Mutants:
         ended, messages = build(self.work, "test", "--no-run", "--lib", "--test", "tests")
         if ended.returncode:
             sys.exit(ended.stderr)
-        made = {message["target"]["name"]: message["executable"] for message in messages if message["reason"] == "compiler-artifact" and message["executable"] and message["profile"]["test"]}
+        made = {
+            message["target"]["name"]: message["executable"]
+            for message in messages
+            if message["reason"] == "compiler-artifact" and message["executable"] and message["profile"]["test"]
+        }
         return [made["midplane"], made["tests"]]
 
     def nearest(self, span):
@@ -181,7 +227,14 @@ def run(commands, number, work, limit):
     environment = os.environ | {"MUTANT": str(number), "RUST_BACKTRACE": "0", "RAYON_NUM_THREADS": "1"}
     for command in commands:
         process = subprocess.Popen(
-            [*command, "--test-threads=1"], cwd=work, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, text=True, start_new_session=True
+            [*command, "--test-threads=1"],
+            cwd=work,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            stdin=subprocess.DEVNULL,
+            text=True,
+            start_new_session=True,
         )
         late = threading.Timer(max(0.1, limit - (time.monotonic() - begin)), lambda: os.killpg(process.pid, 9))
         late.start()

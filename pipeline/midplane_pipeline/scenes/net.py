@@ -71,10 +71,7 @@ class Net:
 
     def foot(self, a, corner):
         """The point of the face that is nearest to an aggregate, where its cell has a corner on the face."""
-        return tuple(
-            outside if outside in (0, self.size) else inside
-            for outside, inside in zip(self.corners[corner], self.at[a, corner], strict=True)
-        )
+        return tuple(outside if outside in (0, self.size) else inside for outside, inside in zip(self.corners[corner], self.at[a, corner], strict=True))
 
     def sides(self):
         """Sides of the cells, from corner to corner, each with the cell on its left and the one on its right, None at a face."""

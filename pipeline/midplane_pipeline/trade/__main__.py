@@ -18,6 +18,8 @@ import subprocess
 import time
 from pathlib import Path
 
+from midplane_pipeline.places import ROOT
+
 from .compare import repeatability, together
 from .extras import features, penalty, refinements
 from .front import MARGINS, candidates, front, label, tie
@@ -25,7 +27,6 @@ from .history import curves
 from .machine import machine, mesher, pin
 from .robust import robustness
 from .scenes import SCENES, knobs, reference, settings
-from midplane_pipeline.places import ROOT
 
 PRESETS = ("draft", "normal", "fine")
 # points of the hypercube, rounds of the front in each of two measurements, scenes, those whose front is run moved and turned
@@ -99,10 +100,7 @@ class Campaign:
             "peak_memory": point["peak_memory"],
             "strategy": point["strategy"],
             "settings": [s for s in point["settings"] if "study:" not in s],
-        } | {
-            name: point["counts"].get(name)
-            for name in ("dofs", "iterations", "increments", "parts", "rejected", "factor_entries", "stiffness_number")
-        }
+        } | {name: point["counts"].get(name) for name in ("dofs", "iterations", "increments", "parts", "rejected", "factor_entries", "stiffness_number")}
 
     def labelled(self, labels):
         return labels, settings(self.scene, labels)
@@ -142,11 +140,7 @@ class Campaign:
         rows = self.measure("sweep", chosen)
         spans = {}
         for name in table:
-            errors = [
-                max(r["error"], 1e-16)
-                for r in rows
-                if (name in r["labels"] or not r["labels"]) and r["error"] is not None
-            ]
+            errors = [max(r["error"], 1e-16) for r in rows if (name in r["labels"] or not r["labels"]) and r["error"] is not None]
             spans[name] = max(errors) / min(errors) if len(errors) > 1 else 1.0
         return spans
 

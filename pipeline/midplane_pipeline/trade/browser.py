@@ -66,9 +66,7 @@ def main():
     run(browser, options.page, f"--screenshot={picture.resolve()}")
     figures = len(re.findall(r'<div id="figure\d+"', text))
     drawn = len(re.findall(r'<div id="figure\d+" class="figure js-plotly-plot"', done.stdout))
-    errors = [
-        line for line in done.stderr.splitlines() if "CONSOLE" in line and ("Uncaught" in line or "ERROR" in line)
-    ]
+    errors = [line for line in done.stderr.splitlines() if "CONSOLE" in line and ("Uncaught" in line or "ERROR" in line)]
     faults = []
     if figures == 0 or drawn != figures:
         faults.append(f"{drawn} of {figures} figures are drawn")

@@ -10,12 +10,13 @@ import time
 
 from midplane.stored import Stored
 
-from .machine import mesher
-from .scenes import STRIP, mesh
-
-from midplane_pipeline.bench.scenes import SPRINGS, folder as box, kept_below
+from midplane_pipeline.bench.scenes import SPRINGS, kept_below
+from midplane_pipeline.bench.scenes import folder as box
 from midplane_pipeline.extremes.solutions import Strip
 from midplane_pipeline.places import ROOT
+
+from .machine import mesher
+from .scenes import STRIP, mesh
 
 
 def study(program, folder, content, *options):
@@ -57,9 +58,7 @@ def penalty(program, out, form):
             "process": "own",
             "repeat": 3,
         }
-        for (element, name, coupling), point in zip(
-            labels, study(program, folder, content, "--threads", "1", "--gmsh", mesher(out))["points"]
-        ):
+        for (element, name, coupling), point in zip(labels, study(program, folder, content, "--threads", "1", "--gmsh", mesher(out))["points"]):
             times = point["processor"]
             rows.append(
                 {

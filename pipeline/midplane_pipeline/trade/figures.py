@@ -89,9 +89,7 @@ def front_figure(scene):
     presets = split(scene["presets"])[0]
     names = [row["labels"]["accuracy"] for row in presets]
     star = {"size": 11, "symbol": "star", "color": PRESET}
-    figure.add_scatter(
-        **against_time(presets, mode="markers+text", name="presets", text=names, textposition="top right", marker=star)
-    )
+    figure.add_scatter(**against_time(presets, mode="markers+text", name="presets", text=names, textposition="top right", marker=star))
     if failed:
         cross = {"size": 9, "symbol": "x", "color": FAILED}
         figure.add_scatter(**against_time(failed, y=[top_of(scene)] * len(failed), name="failed", marker=cross))

@@ -58,9 +58,7 @@ class Page:
     def figure(self, figure):
         self.figures += 1
         name = f"figure{self.figures}"
-        self.add(
-            f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>'
-        )
+        self.add(f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>')
 
     def table(self, head, rows, classes=(), scroll=False):
         """Cells are texts, to the left, or (text, number to sort by)."""

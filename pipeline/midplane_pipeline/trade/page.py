@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 
 from midplane_pipeline.draw.page_text import page_text
-from .front import label
+
 from .figures import (
     answer_figure,
     curve_figure,
@@ -15,6 +15,7 @@ from .figures import (
     save_fronts,
     save_penalty,
 )
+from .front import label
 from .html import Page
 from .tables import (
     REPEATED,
@@ -22,10 +23,10 @@ from .tables import (
     cell,
     common_table,
     coupling_claim,
-    refinements_text,
     features_table,
     penalty_claim,
     presets_table,
+    refinements_text,
     repeatability_table,
     robust_table,
     robust_text,

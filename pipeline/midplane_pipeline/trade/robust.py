@@ -11,12 +11,13 @@ import os
 import re
 import subprocess
 
+from midplane_pipeline.places import ROOT
+
 from .front import label
 from .history import read_history
 from .move import moved, offset, turn
 from .scenes import settings
 from .turn import Turn, taken
-from midplane_pipeline.places import ROOT
 
 SEEDS = (1, 2, 3)
 
@@ -150,14 +151,11 @@ def robustness(campaign, rows):
     front = Front(campaign, rows)
     offsets, (degrees, turned), (name, counted) = front.offsets(), front.turned(), front.instructions()
     result = [
-        {"labels": row["labels"], "error": row["error"], "offsets": a, "turned": b, "instructions": c}
-        for row, a, b, c in zip(rows, offsets, turned, counted)
+        {"labels": row["labels"], "error": row["error"], "offsets": a, "turned": b, "instructions": c} for row, a, b, c in zip(rows, offsets, turned, counted)
     ]
     with open(campaign.out / "robust.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(
-            ["setting", "error", *(f"seed {s}" for s in SEEDS), f"turned by {degrees}", f"1e9 instructions ({name})"]
-        )
+        table.writerow(["setting", "error", *(f"seed {s}" for s in SEEDS), f"turned by {degrees}", f"1e9 instructions ({name})"])
         for row in result:
             table.writerow([label(row), row["error"], *row["offsets"], row["turned"], row["instructions"]])
     return {"degrees": degrees, "counter": name, "points": result}

@@ -91,14 +91,10 @@ def knobs(scene):
     for name, label in scene.without:
         del table[name][label]
     if scene.nonlinear:
-        table["tolerance"] = {
-            t: {"solution.tolerance": float(t)} for t in ("1e-8", "1e-3", "1e-4", "1e-6", "1e-10", "1e-12")
-        }
+        table["tolerance"] = {t: {"solution.tolerance": float(t)} for t in ("1e-8", "1e-3", "1e-4", "1e-6", "1e-10", "1e-12")}
         factors = {"1": 1, "0.125": 0.125, "0.25": 0.25, "0.5": 0.5, "2": 2, "4": 4}
         increments = lambda factor: {key: max(1, math.ceil(n * factor)) for key, n in scene.steps}
-        table["path_tolerance"] = {
-            t: {"solution.path_tolerance": float(t)} for t in ("1e-3", "1e-1", "1e-2", "1e-4")
-        }
+        table["path_tolerance"] = {t: {"solution.path_tolerance": float(t)} for t in ("1e-3", "1e-1", "1e-2", "1e-4")}
         table["increments"] = {label: increments(factor) for label, factor in factors.items()}
         if not scene.without:
             table["tangent"] = {name: {"solution.tangent": name} for name in ("consistent", "initial")}

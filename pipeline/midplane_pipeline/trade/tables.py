@@ -189,17 +189,11 @@ def penalty_claim(rows):
     pairs = {}
     for row in rows:
         pairs.setdefault((row["stiffness"], row["element"], row["edges"]), {})[row["coupling"]] = row
-    stiff = [
-        p
-        for p in pairs.values()
-        if len(p) == 2 and p["projected"]["stiffness_number"] and p["projected"]["stiffness_number"] > 1
-    ]
+    stiff = [p for p in pairs.values() if len(p) == 2 and p["projected"]["stiffness_number"] and p["projected"]["stiffness_number"] > 1]
     soft = [p for p in pairs.values() if len(p) == 2 and p not in stiff]
 
     def ratios(of, name):
-        return [
-            p["projected"][name] / p["pointwise"][name] for p in of if p["projected"][name] and p["pointwise"][name]
-        ]
+        return [p["projected"][name] / p["pointwise"][name] for p in of if p["projected"][name] and p["pointwise"][name]]
 
     def said(of, where):
         if not of:

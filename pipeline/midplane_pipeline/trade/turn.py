@@ -60,9 +60,7 @@ class Turn:
 
     def load(self, load):
         """A load; pressures stay what they are."""
-        return {
-            kind: self.formula(value) if kind == "pressure" else self.vector(*value) for kind, value in load.items()
-        }
+        return {kind: self.formula(value) if kind == "pressure" else self.vector(*value) for kind, value in load.items()}
 
     def measure(self, measure):
         """A measure of a field; (n, t) components turn with the joint."""

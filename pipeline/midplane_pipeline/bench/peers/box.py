@@ -59,10 +59,7 @@ class Box:
 
         def places(rows, columns):
             return np.array(
-                [
-                    whole.indptr[r] + np.searchsorted(whole.indices[whole.indptr[r] : whole.indptr[r + 1]], c)
-                    for r, c in zip(rows, columns)
-                ],
+                [whole.indptr[r] + np.searchsorted(whole.indices[whole.indptr[r] : whole.indptr[r + 1]], c) for r, c in zip(rows, columns)],
                 dtype=np.int64,
             )
 

@@ -98,9 +98,7 @@ def jump_operator(layers, dof):
                 columns.append(dof(node, direction))
                 values.append(sign * value)
     size = 2 * (len(points_a) + len(points_b))
-    matrix = csr_matrix(
-        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(2 * len(x), size)
-    )
+    matrix = csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(2 * len(x), size))
     return x, weight, matrix
 
 

@@ -43,9 +43,7 @@ PEERS = {
     "skfem-pardiso": Peer("skfem", [], BOTH, "pip install scikit-fem"),
     "getfem-mumps": Peer("getfem", [], BOTH, "apt-get install python3-getfem python3-meshio"),
     # its contact follows the bodies as they slide: the joint of the friction box loses a thousandth of its length
-    "calculix-spooles": Peer(
-        "calculix", [], BOTH, "apt-get install calculix-ccx", needs="meshio", program="ccx", accuracy=1e-3
-    ),
+    "calculix-spooles": Peer("calculix", [], BOTH, "apt-get install calculix-ccx", needs="meshio", program="ccx", accuracy=1e-3),
 }
 
 
@@ -113,10 +111,7 @@ def ours(program, scene, coupling):
 def compare(options, python, size, problem):
     """The fastest turn of every program, with the answers compared."""
     here = scenes.folder(options.program.resolve(), size, options.out)
-    runs = {
-        f"midplane {c}": lambda c=c: ours(options.program.resolve(), here / f"{problem}.json", c)
-        for c in ("projected", "pointwise")
-    }
+    runs = {f"midplane {c}": lambda c=c: ours(options.program.resolve(), here / f"{problem}.json", c) for c in ("projected", "pointwise")}
     for name, wanted in PEERS.items():
         if problem in wanted.scenes and name not in options.skip:
             chosen = interpreter(python, wanted)
@@ -124,9 +119,7 @@ def compare(options, python, size, problem):
                 print(f"{name}: skipped, not installed ({wanted.install})")
                 continue
             for threads in options.threads:
-                runs[f"{name} {threads}"] = lambda n=name, p=chosen, t=threads: peer(
-                    p, n, problem, here, options.out, t, options.limit
-                )
+                runs[f"{name} {threads}"] = lambda n=name, p=chosen, t=threads: peer(p, n, problem, here, options.out, t, options.limit)
     fastest = {}
     for _ in range(options.repeat):
         for name, turn in list(runs.items()):

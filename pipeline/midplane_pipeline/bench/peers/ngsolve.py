@@ -13,8 +13,7 @@ from ngsolve import la
 from pyngcore import TaskManager
 from scipy.sparse import csr_matrix, tril
 
-from . import box
-from . import meshes
+from . import box, meshes
 
 clock.end("import")
 

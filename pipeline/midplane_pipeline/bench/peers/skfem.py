@@ -1,6 +1,6 @@
 """scikit-fem with MKL PARDISO (pypardiso), or SuperLU where that is missing.
 
-    python -m midplane_pipeline.bench.peers.skfem elastic|friction FOLDER OUT"""
+python -m midplane_pipeline.bench.peers.skfem elastic|friction FOLDER OUT"""
 
 import sys
 
@@ -13,8 +13,7 @@ import skfem
 from skfem.helpers import ddot, sym_grad, trace
 from skfem.models.elasticity import lame_parameters
 
-from . import box
-from . import meshes
+from . import box, meshes
 
 try:
     import pypardiso

@@ -5,7 +5,7 @@ import stat
 
 import numpy as np
 
-from ..layers import FIX, KN, P, YOUNG, good, lame_rings, off, ring_under_pressure
+from ..layers import FIX, KN, YOUNG, P, good, lame_rings, off, ring_under_pressure
 from ..msh import arc, even, rectangle
 from ..row import first_line, row
 from ..scenes import elastic, relative, scene

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..layers import P, YOUNG, block, off, pressed
+from ..layers import YOUNG, P, block, off, pressed
 from ..msh import Mesh, even, rectangle
 from ..row import row
 from ..scenes import elastic, scene

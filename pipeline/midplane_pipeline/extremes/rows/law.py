@@ -16,9 +16,7 @@ COMPRESSED = ("stress", -10.0)
     "0 carries no shear, 10 sticks on every slope below 84.29°; tan φ = 0 is refused by the cracking law: no tensile limit",
 )
 def friction(t):
-    t.note(
-        "The hyperbola at tan φ = 0 is a strip that no tension leaves: the cracking law refuses it, Coulomb's law is for μ = 0."
-    )
+    t.note("The hyperbola at tan φ = 0 is a strip that no tension leaves: the cracking law refuses it, Coulomb's law is for μ = 0.")
     for mu in (0.0, 1e-12, 1.0, 10.0):
         run = t.program.run(sheared(coulomb(1e6, 1e4, mu), 2.0, [3e-4, -3e-4, 3e-4]), blocks()).need()
         for number, sign in ((2, 1), (3, -1)):
@@ -44,9 +42,7 @@ def friction(t):
     )
     for tan in (1e-12, 10.0):
         law = cracking(tan_friction=tan, cohesion=3.0 * max(tan, 1.0))
-        run = t.program.law(
-            law, way(((COMPRESSED, 0.0), 1), ((COMPRESSED, 2 * peak(law, -10) / 1e7), 2000))
-        ).need()
+        run = t.program.law(law, way(((COMPRESSED, 0.0), 1), ((COMPRESSED, 2 * peak(law, -10) / 1e7), 2000))).need()
         # the path is stored in steps of a thousandth, and integrated to law_tolerance · c₀
         off, limit = (
             abs(run.rows()["traction_t"].max() - peak(law, -10)),
@@ -95,16 +91,10 @@ def no_strength(t):
     law = cracking(tangential_stiffness=1e4, normal_stiffness=1e6, tan_friction=0.6, **zero)
     run = t.program.run(sheared(law, 2.0, [3e-4, -3e-4, 3e-4]), blocks()).need()
     for number, tau in ((2, 1.2), (3, -1.2), (4, 1.2)):
-        t.below(
-            f"case 8a, step {number}: τ", np.abs(run.traction(number=number)[:, 1] / tau - 1).max(), 1e-10
-        )
+        t.below(f"case 8a, step {number}: τ", np.abs(run.traction(number=number)[:, 1] / tau - 1).max(), 1e-10)
     exact = [0.0, 2.16e-4, 6.48e-4, 1.08e-3]
     t.below("case 8a: dissipated energy", np.abs(run.history()["dissipated"] - exact).max() / 1.08e-3, 1e-9)
-    rows = (
-        t.program.law(law, way(((0.0, 1e-6), 3), ((1e-6, 1e-6), 3), ((0.0, 0.0), 3), ((-1e-6, 0.0), 3)))
-        .need()
-        .rows()
-    )
+    rows = t.program.law(law, way(((0.0, 1e-6), 3), ((1e-6, 1e-6), 3), ((0.0, 0.0), 3), ((-1e-6, 0.0), 3))).need().rows()
     at_vertex = np.abs(rows["traction_n"][:7]).max() + np.abs(rows["traction_t"][:7]).max()
     t.below("slip and opening from the vertex carry nothing", at_vertex, 0.0)
 
@@ -206,9 +196,7 @@ def no_dilatancy(t):
             tau = np.interp(f, rows["s"], rows["traction_t"])
             t.below(f"tolerance {tolerance:g}: τ({f})", abs(tau - exact) / 4.0, 3 * tolerance)
     # on a mesh: Newton must not cycle there
-    steps = [
-        {"fix": {"a": ["x"], "a.bottom": ["y"]}, "displace": {"b": {"x": 1e-4, "y": 1e-4}}, "increments": 50}
-    ]
+    steps = [{"fix": {"a": ["x"], "a.bottom": ["y"]}, "displace": {"b": {"x": 1e-4, "y": 1e-4}}, "increments": 50}]
     text = scene({"a": (1e9, 0.0), "b": (1e9, 0.0)}, {"joint": ("a.top", "b.bottom", law)}, steps)
     text["steps"][0]["fix"] = {"a": ["x", "y"]}
     run = t.program.run(text, blocks()).need()
@@ -240,9 +228,7 @@ def reversal(t):
         f"{rows['traction_t'].min():.3f}",
         "< −8",
     )
-    rows = t.program.law(
-        cracking(), way(((8e-5, 0.0), 100), ((0.0, 0.0), 100), ((-1e-6, 0.0), 10), ((1.2e-4, 0.0), 100))
-    )
+    rows = t.program.law(cracking(), way(((8e-5, 0.0), 100), ((0.0, 0.0), 100), ((-1e-6, 0.0), 10), ((1.2e-4, 0.0), 100)))
     rows = rows.need().rows()
     closed = (rows["s"] >= 2.0) & (rows["s"] <= 3.0)
     slope = np.diff(rows["traction_n"][closed]) / np.diff(rows["jump_n"][closed])
@@ -253,14 +239,10 @@ def reversal(t):
     t.holds("case 8a: dissipation never falls", np.diff(run.history()["dissipated"]).min() >= -1e-18)
     # 8a: first slip at 1.2e-4; dissipated up to +A, −A, +A
     dissipated = run.history()["dissipated"][[7, 14, 21]]
-    t.below(
-        "case 8a: dissipated energy", np.abs(dissipated - [2.16e-4, 6.48e-4, 1.08e-3]).max() / 1.08e-3, 1e-9
-    )
+    t.below("case 8a: dissipated energy", np.abs(dissipated - [2.16e-4, 6.48e-4, 1.08e-3]).max() / 1.08e-3, 1e-9)
     # slip begins inside an increment: some 1e-4
     t.below("case 8a: energy balance", abs(run.summary()["solution"]["energy_balance"]), 1e-3)
     run = t.program.run(sheared(cracking(), 10.0, [2e-5, -2e-5, 4e-5], 10), blocks()).need()
-    t.holds(
-        "cracking on a mesh: dissipation never falls", np.diff(run.history()["dissipated"]).min() >= -1e-15
-    )
+    t.holds("cracking on a mesh: dissipation never falls", np.diff(run.history()["dissipated"]).min() >= -1e-15)
     # an error of the parts, not of rounding: some 3e-6
     t.below("cracking on a mesh: energy balance", abs(run.summary()["solution"]["energy_balance"]), 1e-5)

@@ -31,9 +31,7 @@ def cohesive_parameters(t):
     for key in ("tensile_strength", "shear_strength", "fracture_energy_i", "fracture_energy_ii"):
         t.refused(f"{key} = 0", t.program.law(cohesive(**{key: 0.0}), way(((1e-6, 0.0), 2))), key)
     # K_N > f²/(2 G) of the linear softening: G = 4.5e-7
-    t.refused(
-        "G_I just too small", t.program.law(cohesive(fracture_energy_i=4.4e-7), way(((1e-6, 0.0), 2))), "do not fit each other", "normal_stiffness"
-    )
+    t.refused("G_I just too small", t.program.law(cohesive(fracture_energy_i=4.4e-7), way(((1e-6, 0.0), 2))), "do not fit each other", "normal_stiffness")
     rows = t.program.law(cohesive(fracture_energy_i=4.6e-7), way(((3e-7, 0.0), 3), ((4e-7, 0.0), 400))).need().rows()
     t.below("G_I just large enough: |peak/f_t − 1|", abs(rows["traction_n"].max() / FT - 1), 1e-9)
     t.holds("softens without a leap upwards", np.diff(rows["traction_n"][4:]).max() <= 0)
@@ -121,9 +119,7 @@ def closure_with_friction(t):
         law = closing("coulomb", 1e6, v, tangential_stiffness=1e4, friction_coefficient=0.6)
         run = t.program.run(sheared(law, 2.0, [3e-4, -3e-4, 3e-4], 7), blocks()).need()
         dissipated = run.history()["dissipated"][[7, 14, 21]]
-        t.below(
-            f"V = {v:g}: dissipated energy", np.abs(dissipated - [2.16e-4, 6.48e-4, 1.08e-3]).max() / 1.08e-3, 1e-9
-        )
+        t.below(f"V = {v:g}: dissipated energy", np.abs(dissipated - [2.16e-4, 6.48e-4, 1.08e-3]).max() / 1.08e-3, 1e-9)
         tau = run.traction()[:, 1]
         t.below(f"V = {v:g}: |τ/μp − 1|", np.abs(tau / 1.2 - 1).max(), 1e-9)
         # the way bends where slip begins within an increment

@@ -3,6 +3,7 @@
 import numpy as np
 
 from midplane_pipeline.exact.inclusion import disc
+
 from ..msh import arc, even, rectangle
 from ..row import Curve, row
 from ..scenes import elastic, number, scene
@@ -33,9 +34,7 @@ def poisson(t):
                     t.note(f"{shape} at ν = {nu}: energy {ratio:.4f} of the exact one.")
             else:
                 t.silent(f"{shape}, ν = {nu}", run, "W11")
-    t.note(
-        "T3 on alternating diagonals does not lock here; meshes that are not so regular may, so it is warned of all the same."
-    )
+    t.note("T3 on alternating diagonals does not lock here; meshes that are not so regular may, so it is warned of all the same.")
     distance = [0.5 - nu for nu in NU]
     t.curves.append(
         Curve(
@@ -194,9 +193,7 @@ def inclusion(t, ratio, limit, a=1.0, far=3.0, core=0.3, nu=(0.2, 0.3), em=1e4, 
         groups[f"{body}.{group}"] = {"x": f"{radial}*x - {around}*y", "y": f"{radial}*y + {around}*x"}
     step = {"displace": groups, "fix": {"a.left": ["x"], "b.left": ["x"], "a.right": ["y"], "b.right": ["y"]}}
     run = t.program.run(
-        scene(
-            {"a": (ei, nu[0]), "b": (em, nu[1])}, {"joint": ("a.top", "b.bottom", elastic(kn, kt))}, [step]
-        ),
+        scene({"a": (ei, nu[0]), "b": (em, nu[1])}, {"joint": ("a.top", "b.bottom", elastic(kn, kt))}, [step]),
         {"a": inner, "b": outer},
     ).need()
     joint = run.joint()

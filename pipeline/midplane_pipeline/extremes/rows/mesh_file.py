@@ -37,10 +37,7 @@ def damaged(t):
     place = lines[at + 1 + n]
     tags = first.split()
     damages = {
-        **{
-            f"cut after {part:.0%}": whole[: int(len(whole) * part)]
-            for part in np.arange(0.02, 0.99, 0.12 if t.quick else 0.04)
-        },
+        **{f"cut after {part:.0%}": whole[: int(len(whole) * part)] for part in np.arange(0.02, 0.99, 0.12 if t.quick else 0.04)},
         "empty": "",
         "not a mesh": "solid cube\n" * 50,
         "random bytes": np.random.default_rng(1).bytes(4000),

@@ -6,10 +6,10 @@ import os
 import numpy as np
 
 from ..blocks import blocks, pulled, sheared, way
-from ..msh import even, rectangle
-from ..row import Curve, row
 from ..layers import YOUNG, pressed, ring_under_pressure
+from ..msh import even, rectangle
 from ..references import case_3
+from ..row import Curve, row
 from ..scenes import coulomb, cracking, elastic, relative, scene
 from ..solutions import Bending, Patch, Strip
 from ..units import converted, converted_mesh
@@ -157,9 +157,7 @@ def step_size(t):
             t.below(f"law_tolerance {tolerance:g}, {n} increments: error", error, tolerance)
     series = [("backward Euler, one point", steps, program)]
     series += [(label, [1e-3 / n for n in increments], errors) for label, errors in controlled.items()]
-    t.curves.append(
-        Curve("step", "Case 11, shear at −10 MPa to 1 mm", "step [m]", "relative error of τ", series)
-    )
+    t.curves.append(Curve("step", "Case 11, shear at −10 MPa to 1 mm", "step [m]", "relative error of τ", series))
 
 
 @row(
@@ -181,16 +179,10 @@ def large(t):
             apart = {name: value for name, value in strip.scene().items() if name not in ("interfaces", "output")}
             apart["steps"][0]["fix"]["b.bottom"] = ["y"]
             options = (meshes, "--set", "output.fields=none")
-            binding = [
-                min(t.program.run(text, *options).need().summary()["time"]["bind"] for _ in range(2))
-                for text in (strip.scene(), apart)
-            ]
+            binding = [min(t.program.run(text, *options).need().summary()["time"]["bind"] for _ in range(2)) for text in (strip.scene(), apart)]
             share = max(binding[0] - binding[1], 0.0) / time["total"]
             t.below(f"{dofs} dofs: share of the joint, segments and operators", share, 0.01)
-            t.note(
-                f"{dofs} dofs: {time['total']:.1f} s; binding took {1e3 * binding[0]:.0f} ms, without the joint"
-                f" {1e3 * binding[1]:.0f} ms."
-            )
+            t.note(f"{dofs} dofs: {time['total']:.1f} s; binding took {1e3 * binding[0]:.0f} ms, without the joint {1e3 * binding[1]:.0f} ms.")
     t.note("Joints of many segments are bound by `midplane check`, which does all but solve.")
     many, seconds = ([2500, 5000, 10000] if t.quick else [5000, 10000, 20000, 50000]), []
     for n in many:
@@ -205,9 +197,7 @@ def large(t):
     growth = np.log(seconds[-1] / seconds[0]) / np.log(many[-1] / many[0])
     t.below("time of `midplane check` grows with the segments to the power", growth, 1.3)
     series = [("midplane check", 2 * np.array(many), seconds)]
-    t.curves.append(
-        Curve("size", "Reading and binding a joint of many segments", "segments", "seconds", series)
-    )
+    t.curves.append(Curve("size", "Reading and binding a joint of many segments", "segments", "seconds", series))
 
 
 def files(run):
@@ -235,9 +225,7 @@ def repetition(t):
             run = first[threads]
             u = max(relative(run.displacement(b), base.displacement(b), largest(base)) for b in "ab")
             t.below(f"{name}, {threads} against 1: displacement", u, 1e-12)
-            t.below(
-                f"{name}, {threads} against 1: traction", relative(run.traction(), base.traction()), 1e-12
-            )
+            t.below(f"{name}, {threads} against 1: traction", relative(run.traction(), base.traction()), 1e-12)
             t.equal(f"{name}, {threads} against 1: iterations", iterations(run), iterations(base))
     for variable in ("RAYON_NUM_THREADS",):
         text, meshes = shear_box(cracking())
@@ -266,9 +254,7 @@ def nothing(t):
                 run = t.program.run(text, meshes).need()
                 u = max(np.abs(run.displacement(body)).max() for body in "ab")
                 what = f"{name}, {strategy}, control {control}"
-                t.equal(
-                    f"{what}: largest u and t", (float(u), float(np.abs(run.traction()).max())), (0.0, 0.0)
-                )
+                t.equal(f"{what}: largest u and t", (float(u), float(np.abs(run.traction()).max())), (0.0, 0.0))
                 t.below(f"{what}: iterations", max(iterations(run)), 1)
                 t.equal(f"{what}: energy balance", float(np.abs(run.history()["energy_balance"]).max()), 0.0)
     text = ring_under_pressure()

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from ..layers import FIX, KN, P, REMOVED, changed, good, off
+from ..layers import FIX, KN, REMOVED, P, changed, good, off
 from ..msh import Mesh
 from ..row import row
 from ..scenes import coulomb, cracking, elastic
@@ -47,9 +47,7 @@ def groups(t):
     t.refused("two curves of one name", run, "bottom")
     run = t.program.run(text, {**meshes, "b": with_names(renamed("body", "bottom"))})
     t.holds("a curve and a surface of one name", run.good, f"exit {run.code}", "a side is the curve")
-    run = t.program.run(
-        text, {**meshes, "b": with_names(lambda names: [n for n in names if n[2] != '"bottom"'])}
-    )
+    run = t.program.run(text, {**meshes, "b": with_names(lambda names: [n for n in names if n[2] != '"bottom"'])})
     t.refused("the name is missing", run, "bottom")
     run = t.program.run(text, {**meshes, "b": with_names(lambda names: [*names, ["1", "77", '"ghost"']])})
     t.holds(
@@ -62,9 +60,7 @@ def groups(t):
     run = t.program.run(text, {**meshes, "b": with_names(lambda names: [*names, ["1", "77", '"ghost"']])})
     t.refused("a load on an empty group", run, "ghost")
     text, meshes = good()
-    twice = Mesh(
-        mesh.points, [*mesh.blocks, *((d, "second", k, n) for d, g, k, n in mesh.blocks if g == "bottom")]
-    )
+    twice = Mesh(mesh.points, [*mesh.blocks, *((d, "second", k, n) for d, g, k, n in mesh.blocks if g == "bottom")])
     text["interfaces"]["joint"]["side_b"] = ["b.bottom", "b.second"]
     t.refused("a curve in two groups, both joined", t.program.run(text, {**meshes, "b": twice}), "joint")
 
@@ -174,9 +170,7 @@ def bad_values(t):
 
 @row("B41", '`"plane": "axisymmetric"`', "refused, with strain and stress as what there is")
 def axisymmetric(t):
-    t.refused(
-        "axisymmetric", t.program.run(*changed("plane", "axisymmetric")), "axisymmetric", "strain", "stress"
-    )
+    t.refused("axisymmetric", t.program.run(*changed("plane", "axisymmetric")), "axisymmetric", "strain", "stress")
 
 
 @row(

@@ -40,9 +40,7 @@ def stiffness(t):
             run = t.program.run(text(k), meshes)
             answered(t, curves, name, number, run, lambda run, k=k: round_off(run, *precise.solve(k)))
     for what, i in (("displacement", 0), ("traction", 1)):
-        series = [
-            (name, *zip(*((n, errors[i]) for n, errors in found))) for name, found in curves.items() if found
-        ]
+        series = [(name, *zip(*((n, errors[i]) for n, errors in found))) for name, found in curves.items() if found]
         t.curves.append(
             Curve(
                 f"round_off_{what}",
@@ -106,9 +104,7 @@ def soft(t):
     patch = Patch()
     text = patch.scene()
     text["interfaces"]["joint"]["law"] = elastic(0.0)
-    text["steps"][0]["displace"] = {
-        k: v for k, v in text["steps"][0]["displace"].items() if k.startswith("a")
-    }
+    text["steps"][0]["displace"] = {k: v for k, v in text["steps"][0]["displace"].items() if k.startswith("a")}
     t.refused(
         "K = 0 leaves a body free",
         t.program.run(text, patch.meshes(7, 11, "Q4")),
@@ -149,9 +145,7 @@ def floor_of_pointwise(t):
     for name, found in series.items():
         n, u, traction = zip(*found)
         lines += [(f"{name}: displacement", n, u), (f"{name}: traction", n, traction)]
-        t.note(
-            f"Floor of `pointwise`, {name}: traction {traction[-1]:.0e}, displacement {u[-1]:.0e} at K h/E = {n[-1]:.0e}."
-        )
+        t.note(f"Floor of `pointwise`, {name}: traction {traction[-1]:.0e}, displacement {u[-1]:.0e} at K h/E = {n[-1]:.0e}.")
     t.curves.append(Curve("pointwise", "Round-off of pointwise", "K h/E", "relative error", lines))
 
 
@@ -206,9 +200,7 @@ def discretisation(t):
                 t.below(f"{label}: energy error, change over K h/E ≥ 800", spread[0], 0.01)
                 t.below(f"{label}: traction error, change over K h/E ≥ 800", spread[1], 0.01)
     axis = "K h/E", "relative error"
-    t.curves.append(
-        Curve("traction", "Case 9, T3: discretisation error of the normal traction (L2)", *axis, traction)
-    )
+    t.curves.append(Curve("traction", "Case 9, T3: discretisation error of the normal traction (L2)", *axis, traction))
     t.curves.append(Curve("energy", "Case 9, T3: discretisation error of the energy", *axis, energy))
 
 
@@ -240,10 +232,7 @@ def one_direction(t):
     text, meshes = case_3(2e4)
     text["interfaces"]["joint"]["law"] = elastic(2e4, 0.0)
     text["steps"][0]["load"] = {"b.top": {"pressure": 10.0}}
-    whole = {
-        body: rectangle(even(0, 1, n), even(*r, 3), "Q4", arc(0.0, np.pi))
-        for body, n, r in (("a", 14, (1, 1.5)), ("b", 20, (1.5, 2)))
-    }
+    whole = {body: rectangle(even(0, 1, n), even(*r, 3), "Q4", arc(0.0, np.pi)) for body, n, r in (("a", 14, (1, 1.5)), ("b", 20, (1.5, 2)))}
     t.note(
         "Half a ring on a frictionless half ring was expected to be refused as singular. On meshes it is not: the bends between the "
         "edges of the joint resist a turn, by less the finer the mesh. So the program warns (W12) with body and motion."
