@@ -168,9 +168,10 @@ browser:          # for the page of `make trade`, if it can be had
 
 build: $(MIDPLANE)  ## the program only, target/release/midplane
 
-test: | tools     ## all tests, in release, so that dependencies compile once
+test: $(VENV)     ## all tests, in release, so that dependencies compile once; those of pipeline/
 	cargo test --release --locked
 	cargo test --release --locked --manifest-path patches/lexical-core/Cargo.toml --target-dir $(TARGET)/patches
+	cd pipeline && ../$(PYTHON) -m pytest -q
 
 # the program of another commit, such as the one before a redesign, is built beside this one
 identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `before` and with this one, compare bit by bit
@@ -308,8 +309,11 @@ verify: | tools   ## errors and rates against exact solutions, written to docs/V
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
 	    for table in results/verify/*.md; do echo; cat $$table; done; } > docs/VERIFICATION.md
 
-lint: generated   ## format and clippy, warnings are errors; advisories and licences of what is used
+lint: generated   ## format, clippy, ruff and mypy, warnings are errors; advisories and licences of what is used
 	cargo fmt --check -p midplane -p midplane-fuzz -p midplane-mutants
+	for folder in pipeline python; do \
+	    (cd $$folder && ../.venv/bin/ruff check . && ../.venv/bin/ruff format --check .) || exit; \
+	done
 	$(PIPELINE).house.advisories check
 	$(PIPELINE).house.licences check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings

@@ -1,4 +1,4 @@
-"""What a law costs that is there and not needed: the shear box with springs, and with the cracking law kept below its
+"""The cost of a law that is there and not needed: the shear box with springs, and with the cracking law kept below its
 surface by a load of a hundredth. Runs take turns; of each the fastest counts."""
 
 import argparse
@@ -9,6 +9,7 @@ from .scenes import SIZES, SPRINGS, folder, kept_below, run
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/bench-below"))

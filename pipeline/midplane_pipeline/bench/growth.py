@@ -36,6 +36,7 @@ PRICED = {
 
 
 def size(folder):
+    """Bytes of the files below a folder."""
     return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
 
 
@@ -58,6 +59,7 @@ def watched(command):
 
 
 def bytes_of(pid):
+    """Bytes that a process has written so far, if it is still there."""
     try:
         lines = Path(f"/proc/{pid}/io").read_text().splitlines()
         return int(next(line for line in lines if line.startswith("wchar")).split()[1])
@@ -66,6 +68,7 @@ def bytes_of(pid):
 
 
 def processor(command):
+    """Processor time of a command that must succeed [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -73,6 +76,7 @@ def processor(command):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path)
     parser.add_argument("--increments", type=int, default=10000)

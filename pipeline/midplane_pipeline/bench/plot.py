@@ -41,16 +41,17 @@ def fastest(peers, y):
 def draw(axis, rows, peers, y, text):
     """One time against dofs: this program, its peers, one factorisation."""
     for scene, points in curves(rows, y).items():
-        axis.plot(*zip(*points), color=COLOURS[scene], zorder=3, **OURS)
+        axis.plot(*zip(*points, strict=True), color=COLOURS[scene], zorder=3, **OURS)
     for (scene, peer), points in fastest(peers, y).items():
-        axis.plot(*zip(*sorted(points.items())), color=COLOURS[scene], marker=MARKERS[peer], **THEIRS)
-    axis.plot(*zip(*curves(rows, "factor")["elastic"]), color=GREY, **FACTOR)
+        axis.plot(*zip(*sorted(points.items()), strict=True), color=COLOURS[scene], marker=MARKERS[peer], **THEIRS)
+    axis.plot(*zip(*curves(rows, "factor")["elastic"], strict=True), color=GREY, **FACTOR)
     axis.set(xscale="log", yscale="log", xlabel="dofs")
     axis.grid(True, which="major")
     page.caption(axis, text)
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", help="the table of bench.scenes")
     parser.add_argument("peers", nargs="*", help="tables of bench.peers.compare")

@@ -39,7 +39,7 @@ def kept_below(steps):
 def folder(program, size, out):
     """A folder with the meshes `lower.msh` and `upper.msh` of a size and its scenes."""
     here = out / size
-    edges = dict(zip(("lower", "upper"), SIZES[size]))
+    edges = dict(zip(("lower", "upper"), SIZES[size], strict=True))
     numbers = {"edges": 1, "rows": 2}
     sets = [f"--set=subdomains.{body}.parameters.{name}={count // part}" for body, count in edges.items() for name, part in numbers.items()]
     subprocess.run([program, "mesh", ROOT / "geo/shear_box", "-q", "-o", here, *sets], check=True)
@@ -90,7 +90,7 @@ def processor():
 
 
 def machine():
-    """What was measured on, in a line."""
+    """The machine, in a line."""
     rustc = subprocess.run(["rustc", "--version"], capture_output=True, text=True).stdout.split()
     load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
     date = time.strftime("%Y-%m-%d")
@@ -108,6 +108,7 @@ def write(path, rows, about):
 
 
 def show(row):
+    """Prints a row."""
     per = f"{1e3 * row['iteration']:8.2f} ms" if row["iterations"] else " " * 11
     print(
         f"{row['scene']:9} {row['dofs']:8} {row['seconds']:8.2f} s {row['factorisations']:6.2f} factorisations"
@@ -117,6 +118,7 @@ def show(row):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/bench"))

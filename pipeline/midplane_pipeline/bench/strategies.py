@@ -37,6 +37,7 @@ def seconds(program, scene, out, form, patience):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/bench/strategies"))

@@ -12,20 +12,24 @@ NAMES = {"read meshes": "read", "factorisations": "/ factor"}
 
 
 def read(path):
+    """The comment of a table and its rows."""
     lines = Path(path).read_text().splitlines()
     return lines[0].removeprefix("# "), list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
 def table(head, rows):
+    """A Markdown table, numbers to the right."""
     rule = ["---"] + ["---:"] * (len(head) - 1)
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, rule, *rows])
 
 
 def number(text, scale=1.0, digits=3):
+    """A number to so many digits, or nothing."""
     return f"{scale * float(text):.{digits}g}" if text else ""
 
 
 def runs(rows):
+    """Times of whole runs and of their stages."""
     stages = ["read meshes", "bind", "assemble", "order", "factor", "prepare", "solve", "recover", "write"]
     head = ["scene", "dofs", "whole [s]", "/ factor", *(NAMES.get(s, s) for s in stages)]
     head += ["iterations", "each [ms]", "each / factor", "bytes per dof"]
@@ -33,9 +37,17 @@ def runs(rows):
     for row in rows:
         share = f"{100 * float(row['iteration']) / float(row['factor']):.1f} %" if row["iteration"] else ""
         lines.append(
-            [row["scene"], f"{int(row['dofs']):,}".replace(",", " "), number(row["seconds"])]
-            + [number(row["factorisations"], digits=2), *(number(row[s], digits=2) for s in stages)]
-            + [row["iterations"], number(row["iteration"], 1e3, 2), share, f"{float(row['peak_bytes_per_dof']):.0f}"]
+            [
+                row["scene"],
+                f"{int(row['dofs']):,}".replace(",", " "),
+                number(row["seconds"]),
+                number(row["factorisations"], digits=2),
+                *(number(row[s], digits=2) for s in stages),
+                row["iterations"],
+                number(row["iteration"], 1000.0, 2),
+                share,
+                f"{float(row['peak_bytes_per_dof']):.0f}",
+            ]
         )
     return table(head, lines)
 
@@ -60,22 +72,31 @@ def growth(rows):
 
 
 def beside(rows):
+    """Times of other programs beside ours."""
     head = ["scene", "program", "threads", "whole [s]", "ratio", "without imports", "ratio", "iterations"]
     head += ["bytes per dof", "answer"]
     lines = []
     for row in rows:
         first = row["program"].startswith("midplane")
         lines.append(
-            [f"{row['scene']} {row['size']}", row["program"], row["threads"], number(row["seconds"])]
-            + [number(row["ratio"]), "" if first else number(row["without_imports"])]
-            + ["" if first else number(row["ratio_without_imports"])]
-            + ["" if row["iterations"] == "0" else row["iterations"]]
-            + [f"{float(row['peak_bytes_per_dof']):.0f}", f"{float(row['answer']):.8g}"]
+            [
+                f"{row['scene']} {row['size']}",
+                row["program"],
+                row["threads"],
+                number(row["seconds"]),
+                number(row["ratio"]),
+                "" if first else number(row["without_imports"]),
+                "" if first else number(row["ratio_without_imports"]),
+                "" if row["iterations"] == "0" else row["iterations"],
+                f"{float(row['peak_bytes_per_dof']):.0f}",
+                f"{float(row['answer']):.8g}",
+            ]
         )
     return table(head, lines)
 
 
 def main():
+    """The command."""
     page, scenes, *peers = map(Path, sys.argv[1:])
     about, rows = read(scenes)
     parts = [MARK, f"## Whole runs\n\n{about}.", runs(rows), "## Growth", growth(rows)]

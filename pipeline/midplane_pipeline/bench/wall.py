@@ -4,6 +4,7 @@ sideways under their weight. Prints seconds, iterations and the estimated operat
     python -m midplane_pipeline.bench.wall target/release/midplane --rows 10 20"""
 
 import argparse
+import itertools
 import json
 import subprocess
 import time
@@ -37,7 +38,7 @@ def wall(rows, columns, folder, mesh=CELLS, law="friction", increments=10, press
         edges = [LENGTH * k for k in range(columns + 1)]
         if row % 2:
             edges = [0.0] + [LENGTH * (k + 0.5) for k in range(columns)] + [LENGTH * columns]
-        for left, right in zip(edges, edges[1:]):
+        for left, right in itertools.pairwise(edges):
             n = 4 * len(bricks) + 1
             corners = [(left, row), (right, row), (right, row + 1), (left, row + 1)]
             geo += [f"Point({n + i}) = {{{x}, {y * HEIGHT}, 0}};" for i, (x, y) in enumerate(corners)]
@@ -81,6 +82,7 @@ def wall(rows, columns, folder, mesh=CELLS, law="friction", increments=10, press
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/bench/wall"))

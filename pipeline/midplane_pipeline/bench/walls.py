@@ -39,6 +39,7 @@ def run(program, folder, out):
 
 
 def row_of(options, law, shape, increments, repeat):
+    """A wall's fastest run as a row."""
     folder = options.out / f"{law}_{shape[0]}x{shape[1]}"
     folder.mkdir(parents=True, exist_ok=True)
     bricks = wall(*shape, folder, CELLS, law, increments)
@@ -47,17 +48,18 @@ def row_of(options, law, shape, increments, repeat):
     solution = summary["solution"]
     row = (law, bricks, summary["sizes"]["dofs"], increments, solution["strategy"], solution["iterations"], round(seconds, 2))
     row += (round(summary["time"]["solve"], 2), round(summary["peak_memory_bytes"] / bricks), push)
-    print("  ".join(f"{name} {value}" for name, value in zip(COLUMNS, row)), flush=True)
-    return dict(zip(COLUMNS, row))
+    print("  ".join(f"{name} {value}" for name, value in zip(COLUMNS, row, strict=True)), flush=True)
+    return dict(zip(COLUMNS, row, strict=True))
 
 
 def exponent(rows, what):
+    """Slope of the logarithms from the smallest wall to the largest."""
     first, last = rows[0], rows[-1]
     return math.log(last[what] / first[what]) / math.log(last["bricks"] / first["bricks"])
 
 
 def peer(python, folder, *how):
-    """What the peer says of a wall that midplane has meshed."""
+    """Answer of the peer for a wall that midplane has meshed."""
     mesh = next((folder / "out" / "mesh").glob("*.msh"))
     command = [python, "-m", "midplane_pipeline.bench.peers.wall", folder / "scene.json", mesh, *how]
     environment = os.environ | {"PYTHONPATH": str(PIPELINE)}
@@ -84,6 +86,7 @@ def beside(python, folder, own):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("--peer", type=Path, help="a Python with scikit-fem")

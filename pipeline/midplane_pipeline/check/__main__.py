@@ -119,7 +119,7 @@ def check(results, scene, energy, known, faults):
 
 
 def check_known(results, rows, fields, known, faults):
-    """What is known of the scene."""
+    """All that is known of the scene."""
 
     def others(name):
         """The rows of another file of the scene, whose results lie beside these."""
@@ -138,6 +138,7 @@ def check_known(results, rows, fields, known, faults):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(
         prog="python -m midplane_pipeline.check",
         description=__doc__,

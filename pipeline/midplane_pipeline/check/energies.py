@@ -38,7 +38,7 @@ def check_energies(path, scene, results, summary, rows, allowed, faults):
     energies = np.array([[row[columns[probe]] for probe in PROBES] for row in rows])
     largest = np.maximum.accumulate(np.abs(energies).max(axis=1)).clip(min=np.finfo(float).tiny)
     lefts = (energies @ [1, -1, -1, -1]) / largest
-    for number, (left, row) in enumerate(zip(lefts, rows), 1):
+    for number, (left, row) in enumerate(zip(lefts, rows, strict=True), 1):
         faults.expect(
             abs(left - row["energy_balance"]) <= ROUND_OFF,
             f"{path}: row {number}, energies leave {left:.6e} of the largest, not {row['energy_balance']:.6e}",
@@ -53,7 +53,7 @@ def check_work(path, scene, results, summary, rows, energies, size, faults):
     columns = {probe: name for name, probe in scene_file.probes(scene).items()}
     gains = np.diff(energies, axis=0, prepend=0.0)
     off, worst, known = 0.0, 0.0, 0
-    for number, (gain, done) in enumerate(zip(gains, increases(scene, results, rows, columns)), 1):
+    for number, (gain, done) in enumerate(zip(gains, increases(scene, results, rows, columns), strict=True), 1):
         # a stretch that is too small to be told as a snap shows in what is released
         if done is None or number in snaps or gain[3] > ROUND_OFF:
             continue
@@ -136,7 +136,7 @@ def area(group, scene, results):
     mesh = mesh_of(subdomain, results)
     if mesh is None or curve not in mesh.field_data:
         return None
-    parts = zip(mesh.cells, mesh.cell_data["gmsh:physical"])
+    parts = zip(mesh.cells, mesh.cell_data["gmsh:physical"], strict=True)
     tag, dimension = mesh.field_data[curve]
     edges = [block.data[tags == tag, :2] for block, tags in parts if block.dim == dimension == 1]
     if not edges:
@@ -172,7 +172,7 @@ def ramped(old, new, columns):
         if start is None or end is None:
             return None
         size = np.abs([start, end]).max()
-        for direction, a, b in zip("xy", start, end):
+        for direction, a, b in zip("xy", start, end, strict=True):
             column = columns.get(f"{group}.displacement_{direction}")
             if column is not None:
                 ramps.append((column, a, b))

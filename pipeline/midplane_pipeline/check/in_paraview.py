@@ -7,6 +7,7 @@ grow strictly, arrays have the components the README names, and bodies and inter
 picture is not empty, and differs from the first.
 """
 
+import itertools
 import json
 import sys
 from pathlib import Path
@@ -115,7 +116,7 @@ def main():
     source = simple.PVDReader(FileName=str(collection.resolve()))
     times = list(source.TimestepValues)
     expect(len(times) == summary["solution"]["fields"] >= 2, f"{len(times)} times, {summary['solution']['fields']} stored")
-    expect(all(a < b for a, b in zip(times, times[1:])), f"times do not grow: {times}")
+    expect(all(a < b for a, b in itertools.pairwise(times)), f"times do not grow: {times}")
     source.UpdatePipeline(times[-1])
     blocks = check_blocks(source, summary)
     view = warped(source, blocks, summary["sizes"]["interfaces"])

@@ -60,8 +60,10 @@ def check_moves(path, grid, faults):
 
 
 def check_interface(path, grid, law, variables, water, moves, faults):
-    """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none of
-    which is ever negative; where it `moves` from the start its sides move apart by the jump; with water its pressure is what the total traction lacks, and apertures are above those of closed faces."""
+    """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none ever negative.
+
+    Where it `moves` from the start its sides move apart by the jump; with water its pressure is what the total traction lacks, and apertures are above
+    those of closed faces."""
     flows = [pressure["flow"] for pressure in water if isinstance(pressure, dict)]
     wanted = INTERFACE_POINTS | dict.fromkeys(variables, 1) | (WATER_POINTS if water else {}) | (FLOW_POINTS if flows else {})
     good = check_arrays(path, "point", grid.point_data, wanted, faults)

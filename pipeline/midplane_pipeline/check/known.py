@@ -1,4 +1,4 @@
-"""What is known of a scene, as the options of its check say it, beside what its results have.
+"""Knowledge of a scene, as the options of its check say it, beside its results.
 
 A VALUE is one of
 
@@ -10,6 +10,7 @@ A VALUE is one of
 
 import argparse
 import ast
+import itertools
 import math
 import operator
 from dataclasses import dataclass
@@ -37,6 +38,7 @@ class Formula:
         self.value(self.tree, None)
 
     def __call__(self, row):
+        """Its value in a row."""
         return self.value(self.tree, row)
 
     def value(self, node, row):
@@ -217,7 +219,7 @@ def at_a_passing(name, rows):
     if not at or not equals or not rows or not {column, other} <= rows[0].keys():
         return False, None
     x = float(value)
-    for before, row in zip(rows, rows[1:]):
+    for before, row in itertools.pairwise(rows):
         low, high = before[other], row[other]
         if low != high and min(low, high) <= x <= max(low, high):
             return True, before[column] + (row[column] - before[column]) * (x - low) / (high - low)

@@ -30,7 +30,7 @@ def read_thrice(path, faults):
 
 
 def agree(path, reader, read, grid, faults):
-    """What another reader has found, points, corners of cells, their numbers, arrays, is what VTK has."""
+    """Points, corners of cells, their numbers and arrays of another reader are those of VTK."""
     points, corners, sizes, *arrays = read
     faults.expect(np.array_equal(points, grid.points), f"{path}: {reader} and VTK read different points")
     same = np.array_equal(corners, grid.cell_connectivity) and np.array_equal(sizes, np.diff(grid.cell_offsets))

@@ -52,6 +52,7 @@ def parse_exact(text):
 
 
 def parse_arguments():
+    """The options."""
     parser = argparse.ArgumentParser(
         prog="python -m midplane_pipeline.draw",
         description=__doc__,
@@ -89,6 +90,7 @@ def exact_tractions(arguments, scene, results):
 
 
 def main():
+    """The command."""
     arguments = parse_arguments()
     view = view_options.view_of(arguments)
     scene = scene_file.read(arguments.scene)

@@ -63,6 +63,7 @@ class Film:
             self.draw_history(arguments.results)
 
     def page(self, bounds, title, subtitle, keys, bar=0.0):
+        """An empty page with room for the history below."""
         below = GRAPH + 0.6 if self.columns else 0.0
         sheet = Page(bounds, title, subtitle, bar=bar, captions=(" ",), below=below, cut=self.view.zoom is not None)
         sheet.figure.set_dpi(DPI)
@@ -70,6 +71,7 @@ class Film:
         self.sheet, self.keys = sheet, keys
 
     def prepare_displacement(self, title):
+        """Scale, heading and outlines of the deformed mesh."""
         every = [mesh for meshes in self.bodies for mesh in meshes]
         self.scale = displacement.scale_of(every, self.view)
         moved = [displacement.deformed(mesh, self.scale) for mesh in every]
@@ -80,6 +82,7 @@ class Film:
         displacement.draw_outlines(self.sheet.axis, self.bodies[-1])
 
     def show_displacement(self, state, meshes):
+        """The deformed mesh of a row and its interfaces."""
         moved = [displacement.deformed(mesh, self.scale) for mesh in meshes]
         self.changing.append(displacement.draw_deformed(self.sheet, self.sheet.axis, moved, self.scale))
         for name in state.joined(self.view):
@@ -88,6 +91,7 @@ class Film:
                 self.changing += moved_line(self.sheet.axis, points, self.scale.factor)
 
     def prepare_interfaces(self, title):
+        """Scale and heading of the interfaces."""
         every = [mesh for meshes in self.bodies for mesh in meshes]
         bounds = self.view.zoom or plane.frame(every, margin=0.1)
         names = [state.joined(self.view) for state in self.states]
@@ -100,6 +104,7 @@ class Film:
         self.courses = {name: interfaces.course(self.states[0].midplane(name)) for name in set().union(*names)}
 
     def show_interfaces(self, state, meshes):
+        """The interfaces of a row."""
         axis = self.sheet.axis
         self.changing.append(self.sheet.render(meshes, None, axis, color=FACE))
         self.changing += interfaces.draw_outlines(axis, meshes)
@@ -116,8 +121,7 @@ class Film:
 
     def draw_history(self, folder):
         """The whole curve pale; what has been gone through comes over it."""
-        (x, x_label), (y, y_label) = self.columns
-        run = read_columns(folder, (x, y))
+        run = read_columns(folder, [name for name, _ in self.columns])
         axis = self.sheet.place(page.LEFT, page.BOTTOM, self.sheet.size[0] - page.LEFT - page.RIGHT, GRAPH)
         history.draw(axis, [("", run)], None, self.columns)
         axis.lines[0].set(color=PALE, markersize=0, zorder=1)
@@ -198,6 +202,7 @@ def positive(text):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/masonry/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/masonry")

@@ -45,6 +45,7 @@ class Joint:
         return self.normals[distance.argmin(axis=1)]
 
     def moved(self, line, shift):
+        """A line moved along the normals."""
         return line + shift * self.normal(line)
 
 
@@ -108,6 +109,7 @@ def draw_quality(joints, meshes, units, folder):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="such as results/compression/check")
     parser.add_argument("--units", default="m", help="unit of length, default: m")

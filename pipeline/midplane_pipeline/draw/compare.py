@@ -32,6 +32,7 @@ def labelled(text):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/cantilever/scene.json")
     parser.add_argument("results", type=labelled, nargs=2, help="the two results", metavar="[LABEL=]RESULTS")
@@ -48,7 +49,7 @@ def main():
     if not plane.can_render():
         raise SystemExit("no library for off-screen rendering (libosmesa6 or libegl1)")
     runs = [(label, Results(folder, scene, row)) for (label, folder), row in zip(arguments.results, rows, strict=True)]
-    for (label, folder), (_, run) in zip(arguments.results, runs, strict=True):
+    for (_, folder), (_, run) in zip(arguments.results, runs, strict=True):
         if not run.subdomains:
             stored = ", ".join(map(str, run.rows)) or "none"
             raise SystemExit(f"{folder}: no fields stored" + (f" of row {run.row}; there are {stored}" if run.row is not None else ""))

@@ -84,7 +84,7 @@ def pulling(lines, size):
 
     def pull(points, shift):
         if not closed:
-            return points + (0, shift)
+            return (*points, 0, shift)
         return centre + (points - centre) * (1 + outward * shift / (0.5 * pull.size))
 
     pull.closed, pull.size = closed, size

@@ -122,6 +122,7 @@ def draw(runs, marks, title):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, geo/dam/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/dam")

@@ -1,4 +1,4 @@
-"""How far tractions are off exact ones."""
+"""Distance of tractions from exact ones."""
 
 import numpy as np
 from midplane.pictures.traction import distances

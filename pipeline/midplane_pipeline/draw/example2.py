@@ -63,6 +63,7 @@ def draw(axis, runs, friction):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="midplane")
     parser.add_argument("path", type=Path, help="path of the point, such as geo/shear/path.json")

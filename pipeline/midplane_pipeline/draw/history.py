@@ -42,7 +42,7 @@ def deviation(run, solution, x, y):
 
 
 def difference_at_the_end(run, solution, x, y):
-    """How far the last point lies beside the solution at its ordinate, relative."""
+    """Relative distance of the last point from the solution at its ordinate."""
     order = np.argsort(solution.history[y])
     exact = np.interp(run[y][-1], solution.history[y][order], solution.history[x][order])
     return abs(run[x][-1] / exact - 1)
@@ -90,7 +90,7 @@ def draw(axis, runs, solution, columns, levels=(), band=None):
 
 
 def draw_marks(axis, runs, solution, x, y):
-    """What happens on the exact curve, beside it where there is room."""
+    """Marks of the exact curve, beside it where there is room."""
     curves = [solution.history, *(run for _, run in runs)]
     taken = np.concatenate([labels.along(labels.in_axes(axis, curve[x], curve[y])) for curve in curves])
     for place, text in solution.marks:
@@ -173,6 +173,7 @@ def prepare(arguments, scene):
 
 
 def main():
+    """The command."""
     arguments = parse()
     scene = scene_file.read(arguments.scene)
     plt.rcParams.update(page.STYLE)

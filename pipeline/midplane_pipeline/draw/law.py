@@ -182,6 +182,7 @@ def draw(rows, work, label, units):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("csv", help="the rows of the path; - reads standard input")
     parser.add_argument("--scene", help="scene.json with the law of the point")

@@ -6,5 +6,8 @@ import unicodedata
 
 def page_text(value):
     """The text without characters that no page may show or that turn the direction of writing, and nothing read as markup."""
-    bad = lambda c: unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\n\t"
+
+    def bad(c):
+        return unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") and c not in "\n\t"
+
     return html.escape("".join("\ufffd" if bad(c) else c for c in str(value)))

@@ -35,11 +35,13 @@ def setting(point):
 
 
 def known(points, of_x, of_y):
+    """Points that have both numbers: (x, y, point)."""
     found = [(of_x(p), of_y(p), p) for p in points if p["status"] == "done"]
     return [(x, y, p) for x, y, p in found if x and y and math.isfinite(y)]
 
 
 def write_page(study, out):
+    """The page, a figure for time and one for size."""
     parts = [f"<h1>{page_text(study['title'] or study['study'])}</h1>"]
     for k, (title, of_x) in enumerate(AGAINST.items()):
         figure = go.Figure()
@@ -48,7 +50,7 @@ def write_page(study, out):
             name, of_y = ordinate(study, measure)
             rows = known(study["points"], of_x, of_y)
             top = max([top, *(y for _, y, _ in rows)])
-            x, y, points = zip(*rows) if rows else ((), (), ())
+            x, y, points = zip(*rows, strict=True) if rows else ((), (), ())
             text = [f"point {p['point']}<br>{setting(p)}" for p in points]
             figure.add_scatter(x=x, y=y, mode="markers", name=name, text=text, hoverinfo="text+x+y")
         failed = [p for p in study["points"] if p["status"] not in ("done", "limit") and of_x(p)]
@@ -103,6 +105,7 @@ def picture(study, out):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=Path, help="study.json as `midplane study` has written it")
     options = parser.parse_args()

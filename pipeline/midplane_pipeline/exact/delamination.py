@@ -63,6 +63,7 @@ def options(scene, sizes, mode, slack, places):
 
 
 def main():
+    """The command."""
     folder = Path(sys.argv[1])
     for name, *rest in (("scene", "I", (0.02, 0.03, 0.01), (6.5, 6.9)), ("enf", "II", (0.05, 0.03, 0.03), (3.45, 3.6))):
         scene = scene_file.read(folder / f"{name}.json")

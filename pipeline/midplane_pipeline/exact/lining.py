@@ -159,6 +159,7 @@ def lining(scene, results):
 
 
 def main():
+    """The command."""
     solution, joints = of_scene(Path(sys.argv[1]))
     top, side = np.pi / 2, 0.0
     print(f"--expect=crown@end:dig={solution.wall(top, False):.9g}~{NEAR['u']:g}")

@@ -19,6 +19,7 @@ from .rows import ROWS
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.extremes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("midplane", type=Path, help="the program")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/extremes"), help="folder of the report")

@@ -70,7 +70,7 @@ def way(*corners):
     for corner, points in corners:
         now = [value if isinstance(value, tuple) else ("displacement", value) for value in corner]
         part = {}
-        for name, (old_kind, old), (kind, value) in zip("nt", before, now):
+        for name, (old_kind, old), (kind, value) in zip("nt", before, now, strict=True):
             part[name] = {"control": kind, "start": old if kind == old_kind else 0.0, "end": value}
         program.append({**part, "points": points})
         before = now

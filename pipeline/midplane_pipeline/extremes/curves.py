@@ -14,7 +14,7 @@ def draw(curve, path):
     pyplot.rcParams.update(page.STYLE)
     figure, (axis,) = page.graphs(1, 3.6)
     looks = cycle(zip(page.RUNS, page.MARKERS, strict=True))
-    for (label, x, y), (colour, marker) in zip(curve.series, looks):
+    for (label, x, y), (colour, marker) in zip(curve.series, looks, strict=False):
         y = np.maximum(np.abs(np.asarray(y, float)), FLOOR)
         axis.plot(x, y, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=label)
     if curve.line is not None:

@@ -54,6 +54,7 @@ class Mesh:
         return "\n".join(parts) + "\n"
 
     def node_text(self, before):
+        """The section of the nodes."""
         inner = np.setdiff1d(np.arange(len(self.points)), self.corners)
         blocks = [(0, before + i + 1, [node]) for i, node in enumerate(self.corners)]
         blocks.append((2, 1, inner))
@@ -71,6 +72,7 @@ class Mesh:
 
 
 def element_text(numbered):
+    """The section of the elements."""
     total = sum(len(nodes) for *_, nodes in numbered)
     lines, tag = ["$Elements", f"{len(numbered)} {total} 1 {total}"], 0
     for dimension, number, _, kind, nodes in numbered:
@@ -89,6 +91,7 @@ def even(a, b, n):
 
 
 def same(s, r):
+    """A place as its parameters."""
     return s, r
 
 

@@ -150,7 +150,7 @@ class Precise:
         u = np.zeros(len(self.k), WIDE)
         u[free] = x[:n]
         ends = np.cumsum([0] + [2 * len(mesh.points) for mesh in self.meshes.values()])
-        bodies = {body: u[a:b].reshape(-1, 2) for body, a, b in zip(self.meshes, ends, ends[1:])}
+        bodies = {body: u[a:b].reshape(-1, 2) for body, a, b in zip(self.meshes, ends[:-1], ends[1:], strict=True)}
         return bodies, (q @ (scale * x[n:])).reshape(-1, 2)
 
 

@@ -91,7 +91,7 @@ class Program:
 
 
 class Run:
-    """What a call left behind."""
+    """Exit code, texts and files that a call left behind."""
 
     def __init__(self, place, code, out, err, seconds):
         self.place, self.code, self.stdout, self.stderr, self.seconds = place, code, out, err, seconds
@@ -100,10 +100,12 @@ class Run:
 
     @property
     def out(self):
+        """The folder of the results."""
         return self.place / "out"
 
     @property
     def good(self):
+        """True if it has succeeded."""
         return self.code == 0
 
     def wrote(self):
@@ -120,6 +122,7 @@ class Run:
             self.check_finite()
 
     def check_finite(self):
+        """Raises Never where a file holds NaN."""
         texts = [*self.out.glob("*.csv"), *self.out.glob("*.json")]
         for path in texts:
             if re.search(r"\b(nan|inf(inity)?)\b", re.sub(r'"[^"]*"', "", path.read_text()), re.IGNORECASE):
@@ -137,6 +140,7 @@ class Run:
         return self
 
     def warnings(self):
+        """The texts of the warnings."""
         return re.findall(r"^warning: (.*)$", self.stderr, re.MULTILINE)
 
     def warning_codes(self):
@@ -144,6 +148,7 @@ class Run:
         return sorted(set(re.findall(r"^warning: (W\d+)", self.stderr, re.MULTILINE)))
 
     def summary(self):
+        """summary.json."""
         return Stored(self.out).summary()
 
     def history(self):
@@ -160,9 +165,11 @@ class Run:
         return Vtu(sorted(self.out.glob(f"fields/{name}_[0-9]*.vtu"))[number])
 
     def points(self, body):
+        """Nodes of a body."""
         return self.fields(body).points[:, :2]
 
     def displacement(self, body, number=-1):
+        """Displacements of its nodes."""
         return self.fields(body, number).point_data["displacement"][:, :2]
 
     def stress(self, body):
@@ -175,6 +182,7 @@ class Run:
         return {**grid.point_data, "place": grid.points[:, :2]}
 
     def traction(self, name="joint", number=-1):
+        """Tractions (n, t) of a joint's law points."""
         return self.joint(name, number)["traction"]
 
     def segments(self, name="joint"):

@@ -30,7 +30,7 @@ def case_3(k=1.0):
 
 
 def held(meshes, supports):
-    """Which dofs are held: {(body, group): directions}."""
+    """True for dofs that are held: {(body, group): directions}."""
     first, found = 0, []
     for body, mesh in meshes.items():
         of_body = np.zeros((len(mesh.points), 2), bool)
@@ -44,6 +44,7 @@ def held(meshes, supports):
 
 
 def nothing_on(mesh):
+    """No forces on a body."""
     return np.zeros(2 * len(mesh.points), WIDE)
 
 

@@ -22,6 +22,7 @@ class Entry:
 
     @property
     def good(self):
+        """True if there are claims and all of them hold."""
         return bool(self.trial.claims) and all(claim.good for claim in self.trial.claims)
 
     def closest(self):
@@ -31,7 +32,7 @@ class Entry:
         return (missed or sorted(measured, key=lambda claim: claim.margin) or self.trial.claims or [None])[0]
 
     def margin(self):
-        """How far from the limit, in words."""
+        """Distance from the limit, in words."""
         claim = self.closest()
         if claim is None:
             return ""
@@ -74,6 +75,7 @@ def write(entries, out, docs):
 
 
 def head(entries):
+    """The result in a sentence."""
     missed = [entry.number for entry in entries if not entry.good]
     text = f"{len(entries) - len(missed)} of {len(entries)} rows as expected"
     return text + (f"; missed: {', '.join(missed)}." if missed else ".")
@@ -88,6 +90,7 @@ any call: a panic, NaN in a file after exit code 0, a part of a joint dropped in
 
 
 def markdown(entries, pictures, folder):
+    """The table of all rows, then notes and curves."""
     parts = ["# Extremes", "", INTRODUCTION, "", f"**{head(entries)}**", ""]
     parts += [
         "| row | tried | expected | closest to its limit | got | limit | margin |",

@@ -30,7 +30,7 @@ class Curve:
 
 @dataclass
 class Trial:
-    """What a row is handed: the program, and where it puts its findings."""
+    """The program that a row is handed, and room for its findings."""
 
     program: object
     quick: bool
@@ -82,6 +82,7 @@ class Trial:
 
 
 def first_line(text):
+    """The first line of a message, without its beginning."""
     lines = text.strip().splitlines()
     return lines[0].removeprefix("error: ")[:120] if lines else ""
 

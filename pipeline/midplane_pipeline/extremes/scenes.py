@@ -4,10 +4,12 @@ import numpy as np
 
 
 def elastic(kn, kt=None):
+    """Springs."""
     return {"type": "elastic", "normal_stiffness": kn, "tangential_stiffness": kn if kt is None else kt}
 
 
 def coulomb(kn, kt, mu, **more):
+    """Coulomb's law."""
     return {
         "type": "coulomb",
         "normal_stiffness": kn,

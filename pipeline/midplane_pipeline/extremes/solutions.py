@@ -39,6 +39,7 @@ class Patch:
     plane: str = "strain"
 
     def parts(self, side):
+        """e_tt, shear strain, slip, e_nn and opening of a side."""
         (lam, mu), b = lame(self.e[side], self.nu[side], self.plane), float(side)
         shear = self.snt / mu
         opening = self.snn / self.kn if self.kn else 0.0
@@ -46,9 +47,11 @@ class Patch:
         return self.ett, shear, b * slip, (self.snn - lam * self.ett) / (lam + 2 * mu), b * opening
 
     def turn(self):
+        """Cosine and sine of θ."""
         return np.cos(np.radians(self.theta)), np.sin(np.radians(self.theta))
 
     def u(self, side, points):
+        """Displacements of a side at points."""
         (cos, sin), (ett, shear, jt, enn, jn) = self.turn(), self.parts(side)
         x, y = (points - np.array(self.origin)).T
         t, n = cos * x + sin * y, cos * y - sin * x
@@ -56,8 +59,9 @@ class Patch:
         return np.stack([cos * ut - sin * un, sin * ut + cos * un], -1)
 
     def formulas(self, side):
+        """The same as formulas of x and y."""
         (cos, sin), (ett, shear, jt, enn, jn) = self.turn(), self.parts(side)
-        x, y = (f"({name} - {number(at)})" for name, at in zip("xy", self.origin))
+        x, y = (f"({name} - {number(at)})" for name, at in zip("xy", self.origin, strict=True))
         # u = constant + gradient · (x, y)
         c = [cos * jt - sin * jn, sin * jt + cos * jn]
         rotation = np.array([[cos, -sin], [sin, cos]])
@@ -120,7 +124,7 @@ class Patch:
         bodies = [(side, run.points(body), run.displacement(body)) for side, body in enumerate("ab")]
         exact = [self.u(side, points) for side, points, _ in bodies]
         scale = max(np.abs(u).max() for u in exact)
-        u = max(np.abs(got - u).max() for (_, _, got), u in zip(bodies, exact)) / scale
+        u = max(np.abs(got - u).max() for (_, _, got), u in zip(bodies, exact, strict=True)) / scale
         t = run.traction()
         return u, np.abs(t - [self.snn, self.snt]).max() / max(abs(self.snn), abs(self.snt))
 
@@ -138,10 +142,12 @@ class Bending:
     kn: float = 1e5
 
     def coefficients(self, side):
+        """Axial strain, curvature, and the joint's rotation and opening of a side."""
         e, k, w = self.sm / self.e, self.sg / (self.a * self.e), side * self.sg / (self.a * self.kn)
         return e, k, w, side * self.sm / self.kn
 
     def u(self, side, points):
+        """Displacements of a side at points."""
         (e, k, w, jump), (x, y) = self.coefficients(side), points.T
         return np.stack(
             [
@@ -152,11 +158,13 @@ class Bending:
         )
 
     def meshes(self, n_a, n_b, shape, rows=(2, 3)):
+        """Bodies a and b."""
         low, high = self.heights
         a = rectangle(even(-self.a, self.a, n_a), even(-low, 0, rows[0]), shape)
         return {"a": a, "b": rectangle(even(-self.a, self.a, n_b), even(0, high, rows[1]), shape)}
 
     def scene(self, **joint):
+        """The exact displacement on the outer boundary."""
         displace = {}
         for side, (body, groups) in enumerate({"a": ("left", "bottom", "right"), "b": ("left", "top", "right")}.items()):
             e, k, w, jump = map(number, self.coefficients(side))
@@ -170,6 +178,7 @@ class Bending:
         return scene(materials, joints, [{"displace": displace}], "stress")
 
     def errors(self, run):
+        """Relative errors of displacement and traction."""
         exact = [self.u(side, run.points(body)) for side, body in enumerate("ab")]
         scale = max(np.abs(u).max() for u in exact)
         u = max(np.abs(run.displacement(body) - exact[side]).max() for side, body in enumerate("ab")) / scale
@@ -210,11 +219,12 @@ class Strip:
 
     @property
     def length(self):
+        """Half a wave."""
         return np.pi / self.k
 
     def solve(self):
         """Amplitudes: Q on the top, normal and shear traction of the joint."""
-        k, layers = self.k, [lame(e, nu, self.plane) for e, nu in zip(self.e, self.nu)]
+        k, layers = self.k, [lame(e, nu, self.plane) for e, nu in zip(self.e, self.nu, strict=True)]
 
         def system(layer):
             lam, mu = layers[layer]
@@ -245,6 +255,7 @@ class Strip:
         return {"q_top": (top @ slopes)[1], "normal": normal, "shear": shear}
 
     def energy(self):
+        """Strain energy of bodies and joint."""
         return self.p0 * abs(self.solve()["q_top"]) * self.length / 4
 
     def meshes(self, s_a, s_b, shape, rows):
@@ -255,6 +266,7 @@ class Strip:
         return {"a": a, "b": rectangle(s[1], even(0, self.h[1], rows[1]), shape)}
 
     def scene(self, **joint):
+        """The strip between its symmetry planes, under the pressure."""
         sides = {f"{body}.{side}": ["x"] for body in "ab" for side in ("left", "right")}
         step = {
             "fix": {**sides, "a.bottom": ["x", "y"]},
@@ -269,7 +281,7 @@ class Strip:
         )
 
     def errors(self, run):
-        """Of the stored energy, relative; of the normal traction in L2, relative."""
+        """Relative errors of the stored energy, and of the normal traction in L2."""
         joint, exact = run.joint(), self.solve()
         got, w = joint["traction"][:, 0], joint["length"].ravel()
         normal = exact["normal"] * np.cos(self.k * joint["place"][:, 0])

@@ -44,4 +44,5 @@ def converted(scene, length, stress):
 
 
 def converted_mesh(mesh, length):
+    """The mesh with lengths in a new unit."""
     return Mesh(mesh.points * length, mesh.blocks, mesh.corners)

@@ -1,1 +1,1 @@
-"""What the project takes from others: advisories, licences, hashes."""
+"""Parts from others: their advisories, licences, hashes."""

@@ -19,17 +19,19 @@ COPY = Path(__file__).resolve().parent / "advisories.json"
 
 
 def locked():
+    """(name, version, whether it comes from elsewhere) of the crates of Cargo.lock."""
     lock = tomllib.loads((ROOT / "Cargo.lock").read_text())
     return [(package["name"], package["version"], "source" in package) for package in lock["package"]]
 
 
 def number(version):
+    """A version to compare by: a release is above its candidates."""
     core = re.split(r"[-+]", version)[0].split(".")
-    return tuple(int(part) for part in (core + ["0", "0"])[:3]) + (0 if "-" in version else 1,)
+    return (*tuple(int(part) for part in ([*core, "0", "0"])[:3]), 0 if "-" in version else 1)
 
 
 def fits(version, requirement):
-    """Whether a version fits a requirement such as ">= 1.2.3, < 2" or "^0.8"."""
+    """True if a version fits a requirement such as ">= 1.2.3, < 2" or "^0.8"."""
     for part in requirement.split(","):
         sign, wanted = re.match(r"\s*([<>=^~]*)\s*([0-9][^\s]*)", part).groups()
         have, want = number(version), number(wanted)
@@ -45,6 +47,8 @@ def fits(version, requirement):
 
 
 def renew(clone):
+    """Writes the copy from a clone of the list."""
+
     def git(*arguments):
         return subprocess.run(["git", "-C", clone, *arguments], check=True, capture_output=True, text=True).stdout
 
@@ -75,6 +79,7 @@ def renew(clone):
 
 
 def check():
+    """Ends with 1 where an advisory is open, or one that is settled is none."""
     copy = json.loads(COPY.read_text())
     open_ones = []
     for name, version, foreign in locked():

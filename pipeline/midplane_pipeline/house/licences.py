@@ -32,6 +32,7 @@ TAKEN = {
 
 
 def crates():
+    """(name, version, licence) of all crates from elsewhere."""
     command = ["cargo", "metadata", "--format-version", "1", "--locked"]
     data = json.loads(subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
     packages = [package for package in data["packages"] if package["source"]]
@@ -39,7 +40,7 @@ def crates():
 
 
 def is_taken(licence):
-    """Whether an SPDX expression leaves a choice that takes only licences of the list."""
+    """True if an SPDX expression leaves a choice that takes only licences of the list."""
     words = re.split(r"\s+(AND|OR)\s+|([()])", licence.replace("/", " OR "))
     said = [word.strip() for word in words if word and word.strip()]
     python = [word.lower() if word in ("AND", "OR") else word if word in "()" else str(word in TAKEN) for word in said]
@@ -47,12 +48,14 @@ def is_taken(licence):
 
 
 def text(all_of):
+    """docs/LICENCES.md."""
     lines = ["# Licences", "", "Of the crates that midplane is built from, written by `python -m midplane_pipeline.house.licences write`.", ""]
     lines += ["| crate | version | licence |", "|---|---|---|"]
     return "\n".join(lines + [f"| {name} | {version} | {licence} |" for name, version, licence in all_of]) + "\n"
 
 
 def main():
+    """The command."""
     all_of = crates()
     if sys.argv[1:] == ["write"]:
         LIST.write_text(text(all_of))

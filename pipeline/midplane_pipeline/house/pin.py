@@ -24,6 +24,7 @@ def hashes(name, version):
 
 
 def main():
+    """The command."""
     file = Path(sys.argv[1]) if len(sys.argv) > 1 else FILE
     lines = []
     for line in file.read_text().splitlines():

@@ -1,1 +1,1 @@
-"""What checks, pictures and tables need of a scene and its results, beside the reader of the package midplane."""
+"""Results as checks, pictures and tables need them, beside the reader of the package midplane."""

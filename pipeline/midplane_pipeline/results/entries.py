@@ -1,4 +1,4 @@
-"""What an interface of the results is in its scene.
+"""The entry of the scene behind an interface of the results.
 
 An interface with two named sides has the name of its entry in the scene; those that "between" finds are called
 ENTRY~A~B, with their subdomains, and ENTRY~A~B~1, ~2 where these touch along several lines.

@@ -1,4 +1,4 @@
-"""What results lack is told in one line."""
+"""Errors of the reader of results, told in one line."""
 
 import sys
 

@@ -63,6 +63,7 @@ def run(task, ids, script, arguments, of):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("script", type=Path)
     parser.add_argument("arguments", nargs=argparse.REMAINDER)
@@ -76,7 +77,7 @@ def main():
     ids = task_ids(array)
     with ThreadPoolExecutor(chosen.at_once) as pool:
         codes = list(pool.map(lambda task: run(task, ids, chosen.script, chosen.arguments, of), ids))
-    failed = {task: code for task, code in zip(ids, codes) if code != 0}
+    failed = {task: code for task, code in zip(ids, codes, strict=True) if code != 0}
     for task, code in failed.items():
         print(f"task {task} ended with exit code {code}", file=sys.stderr)
     return 1 if failed else 0

@@ -35,6 +35,8 @@ POINTS = 24
 
 
 class Cluster:
+    """The study and the folder that it runs in."""
+
     def __init__(self, program, folder):
         self.program, self.folder = program, folder
 
@@ -51,21 +53,26 @@ class Cluster:
         return ended.stdout + ended.stderr
 
     def study(self, out, *more):
+        """Runs the study into a folder."""
         return self.done(self.program, "study", "study.json", "-o", out, *more)
 
     def table(self, out):
+        """Its table without what is measured."""
         rows = text_rows(self.folder / out / "study.csv")
         return [{name: cell for name, cell in row.items() if not is_measured(name)} for row in rows]
 
     def ages(self, out):
+        """When its points were written."""
         return {path.name: path.stat().st_mtime_ns for path in (self.folder / out / "points").glob("*.json")}
 
 
 def is_measured(name):
+    """True of a column that no two runs have alike."""
     return "seconds" in name or name in ("peak_memory_bytes", "reused")
 
 
 def expect(true, what):
+    """Tells what holds; ends where it does not."""
     if not true:
         sys.exit(f"failed: {what}")
     print(f"ok      {what}")
@@ -101,6 +108,7 @@ def snakemake(cluster, python):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("-o", "--out", type=Path, default=Path("results/cluster-test"))

@@ -75,7 +75,7 @@ def damaged(data, dice):
 
 
 class Inputs:
-    """What can be damaged: a folder, the file in it, and the arguments that read it."""
+    """Inputs to damage: a folder, the file in it, and the arguments that read it."""
 
     def __init__(self, program, out):
         self.all, self.out = [], out
@@ -107,6 +107,7 @@ class Inputs:
 
 
 def limits():
+    """Keeps a process from taking the machine."""
     resource.setrlimit(resource.RLIMIT_AS, (4 * MEMORY, 4 * MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
@@ -157,6 +158,7 @@ def run(program, inputs, number, seed):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path)
     parser.add_argument("--count", type=int, default=10000)

@@ -11,7 +11,8 @@ ABOUT = {
     "msh": "bytes as a mesh file; its groups, boundary, parts and the quality of its cells",
     "scene": "text as a scene; the message is short and clean",
     "study": "text as a study of a scene: its points, measures and their scenes",
-    "path": "an interface and a path, as text or made from bytes: laws of all kinds with parameters up to 1e9 times their usual size, driven with error control and by backward Euler (by backward Euler only where the law is warned of)",
+    "path": "an interface and a path, as text or made from bytes: laws of all kinds with parameters up to 1e9 times their usual size, driven with error "
+    "control and by backward Euler (by backward Euler only where the law is warned of)",
     "expression": "text as a formula; its values and derivatives",
     "bind": "text as a scene, bound to coarse meshes of the gallery",
     "pairing": "two arbitrary chains of edges; what is joined has weights that sum to the length, orthonormal frames, and the jump of a translation",
@@ -20,6 +21,7 @@ EXITS = {"0": "accepted", "2": "refused as bad input", "3": "no equilibrium", "4
 
 
 def main():
+    """The command."""
     damage, fuzz = (json.loads(Path(path).read_text()) for path in sys.argv[1:3])
     lines = ["# Robustness", "", "Written by `make robustness-docs` after `make damage-test` and `make fuzz`.", ""]
     lines += ["## Damaged inputs through the program", "", "```", "make damage-test", "```", ""]
@@ -40,9 +42,8 @@ def main():
     ]
     lines += ["| target | what it tries | executions | most memory | slowest | faults |", "|---|---|---|---|---|---|"]
     for target in fuzz["targets"]:
-        lines.append(
-            f"| `{target['target']}` | {ABOUT[target['target']]} | {target['runs']} | {target['most memory [MB]']} MB | {target['slowest [s]']} s | {len(target['faults'])} |"
-        )
+        name, used = target["target"], f"{target['most memory [MB]']} MB | {target['slowest [s]']} s"
+        lines.append(f"| `{name}` | {ABOUT[name]} | {target['runs']} | {used} | {len(target['faults'])} |")
     lines += ["", f"{faults} faults.", "", "[MUTANTS.md](MUTANTS.md) tells how many mistakes in the sources the tests notice."]
     Path(sys.argv[3]).write_text("\n".join(lines) + "\n")
 

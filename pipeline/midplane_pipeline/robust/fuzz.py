@@ -79,6 +79,7 @@ class Seeds:
             self.add("path", f"{number}", f"{json.dumps(own)}\n---\n{json.dumps(path)}")
 
     def meshes(self, midplane, out):
+        """Coarse meshes of the gallery, binary and as text, and scenes on them."""
         for name, coarse in SCENES.items():
             settings = [f"--set=subdomains.{part}.parameters.{one}" for part, all_of in coarse.items() for one in all_of.split()]
             subprocess.run([midplane, "mesh", ROOT / "geo" / name, "-o", out / name, "-q", *settings], check=True)
@@ -98,12 +99,13 @@ class Seeds:
                 self.add("msh", f"{name}_{path.stem}_text", text.read_bytes())
 
     def add(self, target, name, content):
+        """An input of a target."""
         content = content if isinstance(content, bytes) else content.encode()
         (self.begin / target / name).write_bytes(content)
 
 
 def dictionary(schemas, path):
-    """What a document may say, for libFuzzer: keys and values of the schemas."""
+    """Words of a document for libFuzzer: keys and values of the schemas."""
     words = set()
 
     def walk(node):
@@ -133,11 +135,13 @@ class Target:
         self.runs, self.memory, self.slowest, self.seconds, self.faults = 0, 0, 0, 0.0, []
 
     def call(self, *arguments):
+        """Runs the target."""
         environment = os.environ | {"RAYON_NUM_THREADS": "1", "FUZZ_FOLDER": str(self.seeds.folder), "RUST_BACKTRACE": "1"}
         # mutants of a scene name files: in a folder of its own they find none
         return subprocess.run([self.program, *arguments], env=environment, cwd=self.seeds.folder, capture_output=True, check=False)
 
     def inputs(self):
+        """Folders that it begins with."""
         return [self.seeds.begin / self.name] + [CORPUS / self.name] * (CORPUS / self.name).exists()
 
     def run(self, runs, seconds):
@@ -168,17 +172,20 @@ class Target:
 
     @staticmethod
     def number(said, name):
+        """A number of libFuzzer's statistics."""
         found = re.search(rf"stat::{name}:\s*(\d+)", said)
         return int(found[1]) if found else 0
 
     @staticmethod
     def fault(said):
+        """The reason of an end, and its input."""
         panic = re.search(r"panicked at ([^\n]*)\n([^\n]*)", said)
         what = f"{panic[1]} {panic[2]}" if panic else "".join(re.findall(r"ERROR: libFuzzer: ([^\n]*)", said)[:1])
         file = re.search(r"Test unit written to (\S+)", said)
         return {"what": what or said[-300:], "input": file[1] if file else None}
 
     def report(self):
+        """Its runs and faults."""
         rate = round(self.runs / self.seconds) if self.seconds else 0
         return {
             "target": self.name,
@@ -205,6 +212,7 @@ class Target:
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("programs", type=Path)
     parser.add_argument("--runs", type=int, default=1_500_000, help="of a target, times its share")
@@ -227,9 +235,8 @@ def main():
     (out / "report.json").write_text(json.dumps(report, indent=1) + "\n")
     faults = [f"{target.name}: {fault['what']}" for target in targets for fault in target.faults]
     for target in report["targets"]:
-        print(
-            f"{target['target']:<12}{target['runs']:>10} runs {target['runs per second']:>7}/s {target['most memory [MB]']:>5} MB, slowest {target['slowest [s]']} s, {len(target['faults'])} faults"
-        )
+        speed = f"{target['runs']:>10} runs {target['runs per second']:>7}/s {target['most memory [MB]']:>5} MB"
+        print(f"{target['target']:<12}{speed}, slowest {target['slowest [s]']} s, {len(target['faults'])} faults")
     print("\n".join(faults))
     print(f"{sum(target.runs for target in targets)} runs, {len(faults)} faults")
     sys.exit(1 if faults else 0)

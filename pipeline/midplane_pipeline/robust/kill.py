@@ -87,6 +87,7 @@ def is_measured(key):
 
 
 def timeless(value):
+    """A content without what is measured."""
     if isinstance(value, dict):
         return {key: timeless(below) for key, below in value.items() if not is_measured(key)}
     return [timeless(below) for below in value] if isinstance(value, list) else value
@@ -99,11 +100,12 @@ def contents(folder):
 
 
 def is_checkpoint(path):
+    """True of a whole file among the checkpoints."""
     return path.parent.name == "checkpoint" and not path.name.startswith(".")
 
 
 def broken(folder):
-    """What is not whole in the folder of a run that was ended, if anything."""
+    """The first file in the folder of an ended run that is not whole, none if all are."""
     for path in folder.rglob("*"):
         if not path.is_file() or path.name.startswith(".midplane-") or ".midplane-" in str(path.parent):
             continue
@@ -140,15 +142,19 @@ def meshers(folder):
 
 
 class Test:
+    """Runs that are disturbed, and what came of them."""
+
     def __init__(self, program, out, seed):
         self.program, self.out, self.random = Path(program).resolve(), out.resolve(), random.Random(seed)
         self.failures, self.counts = [], {}
 
     def start(self, arguments, folder):
+        """Starts the program."""
         command = [self.program, *arguments, "-o", folder]
         return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=self.out, text=True)
 
     def cases(self):
+        """All cases, each run once without disturbance."""
         shutil.rmtree(self.out, ignore_errors=True)
         self.out.mkdir(parents=True)
         study = self.out / "six_study.json"
@@ -166,7 +172,7 @@ class Test:
         return cases
 
     def often(self, case):
-        """How often checkpoints are kept; a study has none."""
+        """Options for the interval of checkpoints; a study has none."""
         if case.name == "study":
             return []
         return ["--checkpoint", self.random.choice(["1", "3", "0.05s", "60s"])]
@@ -188,6 +194,7 @@ class Test:
             shutil.rmtree(folder)
 
     def count(self, kind, name, fault):
+        """Counts a case, and keeps its fault."""
         good, all_of = self.counts.get(kind, (0, 0))
         self.counts[kind] = (good + (fault is None), all_of + 1)
         if fault is not None:
@@ -265,6 +272,7 @@ class Test:
 
 
 def can_mount(out):
+    """True if a small file system can be mounted."""
     place = out / "mount"
     place.mkdir(parents=True, exist_ok=True)
     tried = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", place], capture_output=True)
@@ -275,6 +283,7 @@ def can_mount(out):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/kill-test"))

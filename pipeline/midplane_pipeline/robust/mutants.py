@@ -106,10 +106,11 @@ SLOWER, MORE = 3.0, 20.0
 
 
 def build(work, *arguments):
+    """Runs cargo; returns how it ended and its messages."""
     command = ["cargo", *arguments, "--release", "--locked", "--message-format", "json"]
     # beside the programs of the project, which it would replace
     environment = os.environ | {"CARGO_TARGET_DIR": str(Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "mutants")}
-    ended = subprocess.run(command, cwd=work, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    ended = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
     messages = [json.loads(line) for line in ended.stdout.splitlines() if line.startswith("{")]
     return ended, messages
 
@@ -146,11 +147,11 @@ class Mutants:
         chosen = self.sample[area]
         while len(chosen) < count and self.waiting[area]:
             site = self.waiting[area].pop()
-            apart = lambda other: other["file"] != site["file"] or other["end"] < site["start"] or site["end"] < other["start"]
-            if all(apart(other) for other in chosen):
+            if all(are_apart(site, other) for other in chosen):
                 chosen.append(site | {"area": area})
 
     def all(self):
+        """The places of all areas."""
         return [site for area in self.sample for site in self.sample[area]]
 
     def write(self):
@@ -211,12 +212,22 @@ class Mutants:
         return [made["midplane"], made["tests"]]
 
     def nearest(self, span):
+        """The mutant nearest to the place of a compiler's error."""
         own = [site for site in self.all() if site["file"] == span["file_name"]]
-        distance = lambda site: max(site["there"][0] - span["byte_end"], span["byte_start"] - site["there"][1])
+
+        def distance(site):
+            return max(site["there"][0] - span["byte_end"], span["byte_start"] - site["there"][1])
+
         return min(own, key=distance) if own else self.all()[0]
 
 
+def are_apart(site, other):
+    """True if neither of two places lies within the other."""
+    return other["file"] != site["file"] or other["end"] < site["start"] or site["end"] < other["start"]
+
+
 def tests_of(area, programs):
+    """Commands of the tests of an area."""
     _, _, units, integration = AREAS[area]
     return [[programs[0], *units], *([programs[1], f"{name}::"] for name in integration)]
 
@@ -236,7 +247,7 @@ def run(commands, number, work, limit):
             text=True,
             start_new_session=True,
         )
-        late = threading.Timer(max(0.1, limit - (time.monotonic() - begin)), lambda: os.killpg(process.pid, 9))
+        late = threading.Timer(max(0.1, limit - (time.monotonic() - begin)), os.killpg, (process.pid, 9))
         late.start()
         failed, name = None, "?"
         for line in process.stdout:
@@ -257,6 +268,7 @@ def run(commands, number, work, limit):
 
 
 def same(reason, site):
+    """True if a reason is that of a place."""
     return all(reason[key] == site[key] for key in ("file", "function", "right", "wrong"))
 
 
@@ -274,7 +286,10 @@ def page(sites, options):
         late = sum(site["caught"] == "time" for site in caught)
         lines.append(f"| {area} | {len(own)} | {len(caught)}, {100 * len(caught) / len(own):.0f} % | {late} | {len(own) - len(caught)} |")
     lines += ["", "Those that survive, and why:", "", "| place | right | wrong | reason |", "|---|---|---|---|"]
-    code = lambda text: "`" + " ".join(text.split()).replace("|", "\\|") + "`" if text else ""
+
+    def code(text):
+        return "`" + " ".join(text.split()).replace("|", "\\|") + "`" if text else ""
+
     for site in sites:
         if not site["caught"]:
             place = f"{site['file'].removeprefix('src/')}, `{site['function']}`"
@@ -283,6 +298,7 @@ def page(sites, options):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path, nargs="?", default=ROOT / "target/release/mutants", help="target/release/mutants")
     parser.add_argument("--seed", type=int, default=1)

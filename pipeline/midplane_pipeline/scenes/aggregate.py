@@ -63,6 +63,7 @@ class Geo:
         self.points, self.lines, self.surfaces = {}, {}, 0
 
     def point(self, place):
+        """Number of a point."""
         if place not in self.points:
             self.points[place] = len(self.points) + 1
             self.text.append(f"Point({self.points[place]}) = {{{place[0]:.6f}, {place[1]:.6f}, 0, edge}};")
@@ -79,20 +80,24 @@ class Geo:
         return self.lines[key]
 
     def surface(self, loop):
+        """A surface within a loop of points."""
         lines = [self.line(*ends) for ends in pairs(loop)]
         self.surfaces += 1
         self.text.append(f"Curve Loop({self.surfaces}) = {{{', '.join(map(str, lines))}}};")
         self.text.append(f"Plane Surface({self.surfaces}) = {{{self.surfaces}}};")
 
     def group(self, kind, name, members):
+        """A physical group."""
         self.text.append(f'Physical {kind}("{name}") = {{{", ".join(str(abs(member)) for member in members)}}};')
 
     def write(self, path):
+        """Ends the text and writes it."""
         self.text.append(f'Physical Surface("body") = {{1:{self.surfaces}}};')
         path.write_text("\n".join([*self.text, "Mesh.ElementOrder = order;", ""]))
 
 
 def write_aggregates(net, seed, path):
+    """The aggregates, each a surface of its own."""
     geo = Geo(AGGREGATES.format(count=len(net.aggregates)) + HEAD.format(seed=seed), 0.006)
     for aggregate in net.aggregates:
         geo.surface(aggregate)
@@ -125,6 +130,7 @@ def write_mortar(net, seed, path):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where to write, such as geo/aggregate")
     parser.add_argument("--seed", type=int, default=1, help="of the random numbers (default: %(default)s)")

@@ -59,7 +59,7 @@ def weakest_path(net, scene, direction):
 
 
 def tell(net, scene, pressed):
-    """What is known of a scene before it is solved."""
+    """Prints the bounds of a scene before it is solved."""
     share, soft, stiff = stiffness(net, scene)
     print(f"aggregates {100 * share:.1f} % of the area; modulus between {soft:.0f} and {stiff:.0f}")
     pull, push = (math.inf, 0), (math.inf, 0)

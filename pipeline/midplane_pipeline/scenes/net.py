@@ -20,6 +20,7 @@ class Net:
             self.draw(rows, columns)
 
     def draw(self, rows, columns):
+        """Draws corners, cells and aggregates anew."""
         self.corners, self.cells = [], []
         self.honeycomb(rows, columns)
         self.aggregates = [shrink([self.corners[c] for c in cell], self.random.uniform(*SHRINK)) for cell in self.cells]
@@ -59,6 +60,7 @@ class Net:
                 self.cells.append(part(row, "foot", i) + part(row + 1, "top", i)[::-1])
 
     def moved(self):
+        """A random move, of a cell."""
         return self.random.uniform(-MOVE, MOVE)
 
     def faces(self, corner):
@@ -118,6 +120,7 @@ def is_convex(polygon):
 
 
 def area_and_centroid(polygon):
+    """Area of a polygon that runs counter-clockwise, and its centroid."""
     crosses = [(x0 * y1 - x1 * y0, x0 + x1, y0 + y1) for (x0, y0), (x1, y1) in pairs(polygon)]
     area = sum(cross for cross, _, _ in crosses) / 2
     return area, [sum(c * s[axis] for c, *s in crosses) / (6 * area) for axis in (0, 1)]

@@ -15,6 +15,7 @@ of the courses. Sizes and numbers that are no option are those of the walls of R
 """
 
 import argparse
+import itertools
 import math
 import os
 
@@ -127,7 +128,7 @@ MIDDLE = {  # strength and energy in tension as in other computations of these w
 
 
 def ends(number, bricks):
-    """Where the head joints of a course are, and its two ends, in lengths of a brick: even courses are shifted by half a brick."""
+    """Places of the head joints of a course and of its two ends, in lengths of a brick: even courses are shifted by half a brick."""
     shift = 0.5 * (number % 2 == 0)
     inner = [place + shift for place in range(int(bricks) + 1) if 0 < place + shift < bricks]
     return [0.0, *inner, bricks]
@@ -155,7 +156,7 @@ def courses(wall):
                 edges=math.ceil(edges * (right - left)),
                 **rest,
             )
-            for order, (left, right) in enumerate(zip(places, places[1:]), 1)
+            for order, (left, right) in enumerate(itertools.pairwise(places), 1)
         ]
 
 
@@ -192,6 +193,7 @@ def scene(wall):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--courses", type=int, default=16, help="courses that are not clamped (default: %(default)s)")
     parser.add_argument("--bricks", type=float, default=4.5, help="bricks in a course, whole or and a half (default: %(default)s)")

@@ -70,16 +70,16 @@ class Campaign:
         options = ["-o", folder / "out", "--threads", "1", "-q", "--gmsh", self.gmsh]
         subprocess.run([self.program, "study", folder / "study.json", *options], check=True)
         done = json.loads((folder / "out" / "study.json").read_text())
-        return [self.row(phase, labels, point) for (labels, _), point in zip(labelled, done["points"])]
+        return [self.row(phase, labels, point) for (labels, _), point in zip(labelled, done["points"], strict=True)]
 
     def keep(self, phase):
         """Its table beside the campaign's own."""
         shutil.copyfile(self.out / phase / "out" / "study.csv", self.out / f"{phase}.csv")
 
     def row(self, phase, labels, point):
-        """What the campaign keeps of a point."""
+        """A point as the campaign keeps it."""
         stages = {name: statistics.median(s.get(name, 0.0) for s in point["stages"]) for name in point["stages"][0]}
-        wall = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"])]
+        wall = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"], strict=True)]
         run = point["processor"] or wall
         errors = point["errors"]
         deciding = [errors[name] for name in self.scene.errors if name in errors]
@@ -103,21 +103,23 @@ class Campaign:
         } | {name: point["counts"].get(name) for name in ("dofs", "iterations", "increments", "parts", "rejected", "factor_entries", "stiffness_number")}
 
     def labelled(self, labels):
+        """Labels and their settings."""
         return labels, settings(self.scene, labels)
 
     def measure(self, phase, chosen):
         """Runs settings by their labels; what an earlier phase has measured is not run again."""
         keys = [json.dumps(settings(self.scene, labels)) for labels in chosen]
-        fresh = {key: labels for key, labels in zip(keys, chosen) if key not in self.measured}
+        fresh = {key: labels for key, labels in zip(keys, chosen, strict=True) if key not in self.measured}
         if fresh:
             rows = self.study(phase, [self.labelled(labels) for labels in fresh.values()])
             self.keep(phase)
-            self.measured |= dict(zip(fresh, rows))
-        rows = [self.measured[key] | {"phase": phase, "labels": labels} for key, labels in zip(keys, chosen)]
+            self.measured |= dict(zip(fresh, rows, strict=True))
+        rows = [self.measured[key] | {"phase": phase, "labels": labels} for key, labels in zip(keys, chosen, strict=True)]
         self.points += rows
         return rows
 
     def table(self):
+        """The knobs that this campaign turns."""
         table = knobs(self.scene)
         if self.scene.swept:
             table = {name: table[name] for name in self.scene.swept}
@@ -176,7 +178,7 @@ class Campaign:
         rows = [row | {"times": []} for row in chosen]
         for k in range(rounds):
             again = self.study(f"repeats/{half} {k}", labelled)
-            rows = [together(a, b) if a["times"] else b for a, b in zip(rows, again)]
+            rows = [together(a, b) if a["times"] else b for a, b in zip(rows, again, strict=True)]
         times = {tuple(row["settings"]): row["time"] for row in rows}
         for row in self.points:
             row["time"] = min(row["time"], times.get(tuple(row["settings"]), row["time"]))
@@ -184,6 +186,7 @@ class Campaign:
 
 
 def write_whole(path, text):
+    """Writes a file that is never half there."""
     aside = path.with_suffix(".writing")
     aside.write_text(text)
     aside.replace(path)
@@ -211,7 +214,7 @@ def run_scene(program, scene, out, form, robust):
         near = candidates(campaign.points, scene.floor, MARGINS[1])
         # measured twice, one after the other
         halves = [campaign.repeats(half, near, rounds) for half in ("first", "second")]
-    pooled = [together(a, b) for a, b in zip(*halves)]
+    pooled = [together(a, b) for a, b in zip(*halves, strict=True)]
     repeats_csv(campaign.out / "repeats.csv", halves)
     chosen = front(pooled, scene.floor, statistics.median(tie(row) for row in pooled))
     presets = campaign.presets(rounds)
@@ -240,12 +243,13 @@ def repeats_csv(path, halves):
     with open(path, "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["setting", "error", "measurement", "seconds"])
-        for rows in zip(*halves):
-            for half, row in zip(("first", "second"), rows):
+        for rows in zip(*halves, strict=True):
+            for half, row in zip(("first", "second"), rows, strict=True):
                 table.writerow([label(row), row["error"], half, *(f"{t:.6g}" for t in row["times"])])
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.trade", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("-o", "--out", type=Path, default=Path("results/trade"))

@@ -37,6 +37,7 @@ window.addEventListener('load', function () {
 
 
 def run(browser, page, *options):
+    """Runs the browser on a page."""
     # a profile of its own, no sandbox because containers have none
     with tempfile.TemporaryDirectory() as profile:
         command = [browser, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}"]
@@ -45,6 +46,7 @@ def run(browser, page, *options):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("page", type=Path, nargs="?", default=Path("results/trade/trade.html"))
     parser.add_argument("--find", action="store_true", help="only tell which browser there is")

@@ -35,7 +35,7 @@ def ratios(front, rows, others, floor):
 
 
 def repeatability(front, halves, pooled, floor):
-    """How far the two measurements of a campaign agree at its own front."""
+    """Agreement of the two measurements of a campaign at its own front."""
     found, most = ratios(front, *halves, floor), statistics.median(spread(row) for row in pooled)
     repeated = len(pooled) if halves[0] is not halves[1] else 0
     return {
@@ -51,11 +51,11 @@ def repeatability(front, halves, pooled, floor):
 def compare(name, a, b):
     """Lines that say how a scene of two campaigns compares, and whether they agree."""
     floor = a["floor"]
-    pooled = [[together(*rows) for rows in zip(*scene["repeated"])] for scene in (a, b)]
+    pooled = [[together(*rows) for rows in zip(*scene["repeated"], strict=True)] for scene in (a, b)]
     most = max(scene["repeatability"]["spread"] for scene in (a, b))
     levels = sorted(once(a["front"] + b["front"]), key=lambda row: row["error"], reverse=True)
     found = ratios(levels, *pooled, floor)
-    apart = [(row, ratio) for row, ratio in zip(levels, found) if ratio - 1 > most]
+    apart = [(row, ratio) for row, ratio in zip(levels, found, strict=True) if ratio - 1 > most]
     worst = max(range(len(found)), key=found.__getitem__)
     same = {tuple(row["settings"]) for row in a["front"]} & {tuple(row["settings"]) for row in b["front"]}
     lines = [
@@ -68,6 +68,7 @@ def compare(name, a, b):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("campaigns", type=Path, nargs=2, help="two files trade.json")
     options = parser.parse_args()

@@ -32,7 +32,10 @@ MARKS = ("<!-- trade -->", "<!-- /trade -->")
 
 def table(head, rows):
     """A Markdown table."""
-    text = lambda cell: str(cell[0] if isinstance(cell, tuple) else cell)
+
+    def text(cell):
+        return str(cell[0] if isinstance(cell, tuple) else cell)
+
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(text(cell) for cell in row) + " |" for row in rows])
 
@@ -47,6 +50,7 @@ def scene_text(name, scene):
 
 
 def document(data):
+    """docs/TRADE.md."""
     m, scenes = data["machine"], data["scenes"]
     parts = [
         "# Speed against accuracy\n",
@@ -92,7 +96,7 @@ def document(data):
 
 
 def presets(data):
-    """What the tests need to run the presets again."""
+    """Presets as the tests run them again."""
     result = {}
     for name, scene in data["scenes"].items():
         of = SCENES[name]
@@ -109,6 +113,7 @@ def presets(data):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", type=Path, help="results/trade")
     parser.add_argument("out", type=Path, help="docs/trade")

@@ -1,4 +1,4 @@
-"""What `make trade` measures besides the fronts: the penalty, studies against single runs, what a feature costs."""
+"""Measurements of `make trade` besides the fronts: the penalty, studies against single runs, the cost of features."""
 
 import json
 import os
@@ -58,7 +58,7 @@ def penalty(program, out, form):
             "process": "own",
             "repeat": 3,
         }
-        for (element, name, coupling), point in zip(labels, study(program, folder, content, "--threads", "1", "--gmsh", mesher(out))["points"]):
+        for (element, name, coupling), point in zip(labels, study(program, folder, content, "--threads", "1", "--gmsh", mesher(out))["points"], strict=True):
             times = point["processor"]
             rows.append(
                 {

@@ -24,23 +24,25 @@ LAYOUT["colorway"] = RUNS
 
 
 def log_axis(title):
+    """A logarithmic axis of plotly."""
     return {"type": "log", "title": title, "exponentformat": "power", "dtick": 1}
 
 
 def hover(row):
+    """Text of a point."""
     lines = [label(row), f"error {row['error']:.3g}" if row["error"] is not None else row["message"][:120]]
     lines += [f"{row['time']:.3g} s", f"{row['dofs'] or 0:.0f} dofs"]
     return "<br>".join(lines)
 
 
 def top_of(scene):
-    """Where failed points are shown."""
+    """Height of failed points."""
     known = [row["error"] for row in scene["points"] if row["error"] is not None]
     return 4 * max(known, default=1.0)
 
 
 def shown(row, floor=0.0):
-    """Where the error of a point is drawn."""
+    """Height of a point by its error."""
     return max(error_of(row, floor), 1e-12)
 
 
@@ -56,6 +58,7 @@ def split(rows):
 
 
 def time_and_error(figure, title):
+    """Both axes of a figure of errors against time."""
     time = log_axis("time [s]") | {"dtick": "D2"}
     figure.update_layout(title=title, xaxis=time, yaxis=log_axis("relative error"), **LAYOUT)
 
@@ -155,6 +158,7 @@ def curve_figure(title, curves):
 
 
 def groups(rows):
+    """Points of the penalty by coupling, element and edges."""
     table = {}
     for row in rows:
         if row["error"] is not None:
@@ -212,7 +216,10 @@ def draw_front(axis, scene):
     presets = split(scene["presets"])[0]
     alone = {"linestyle": ""}
     draw(known, marker="o", markersize=1.8, color=PALE, label="all points", zorder=1, **alone)
-    level = lambda row: shown(row, scene["floor"])
+
+    def level(row):
+        return shown(row, scene["floor"])
+
     front = {"marker": "D", "markersize": 3, "linewidth": 1.1, "drawstyle": "steps-post", "zorder": 3}
     draw(scene["front"], level, color=FRONT, label="front", **front)
     draw(presets, marker="*", markersize=7, color=PRESET, label="presets", zorder=4, **alone)

@@ -1,4 +1,4 @@
-"""Which points of a campaign are on its Pareto front, and what they mean for who needs so many digits.
+"""The Pareto front of a campaign, and its points for who needs so many digits.
 
 A time is not known better than its repeats tell. Points that are closer than their middle is to the fastest are a tie, of
 which the more accurate is on the front; and two measurements agree at an error if the times they take to reach it differ by
@@ -27,7 +27,7 @@ def spread(row):
 
 
 def tie(row):
-    """How far the middle of the repeats of a point is above the fastest."""
+    """Relative distance of the middle of the repeats of a point from the fastest."""
     return statistics.median(row["times"]) / min(row["times"]) - 1
 
 
@@ -93,6 +93,9 @@ def common(scenes, target):
     everywhere = {key: rows for key, rows in by_setting.items() if len(rows) == len(scenes)}
     if not everywhere:
         return None
-    cost = lambda rows: sum(math.log(row["time"]) for row in rows.values())
+
+    def cost(rows):
+        return sum(math.log(row["time"]) for row in rows.values())
+
     key = min(everywhere, key=lambda key: cost(everywhere[key]))
     return key, everywhere[key]

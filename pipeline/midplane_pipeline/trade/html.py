@@ -47,15 +47,19 @@ class Page:
         self.title, self.parts, self.figures = title, [], 0
 
     def add(self, text):
+        """Adds markup."""
         self.parts.append(text)
 
     def heading(self, text, level=2):
+        """Adds a heading."""
         self.add(f"<h{level}>{page_text(text)}</h{level}>")
 
     def text(self, text, kind=""):
+        """Adds a paragraph."""
         self.add(f'<p class="{kind}">{page_text(text)}</p>')
 
     def figure(self, figure):
+        """Adds a figure of plotly."""
         self.figures += 1
         name = f"figure{self.figures}"
         self.add(f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>')
@@ -65,18 +69,19 @@ class Page:
         texts = [isinstance(cell, str) for cell in rows[0]] if rows else [True] * len(head)
         kinds = [" class='text'" if text else "" for text in texts]
         lines = [f"<div class='{'scroll' if scroll else 'wide'}'><table><thead><tr>"]
-        lines += [f"<th{kind}>{page_text(cell)}</th>" for cell, kind in zip(head, kinds)] + ["</tr></thead><tbody>"]
+        lines += [f"<th{kind}>{page_text(cell)}</th>" for cell, kind in zip(head, kinds, strict=True)] + ["</tr></thead><tbody>"]
         for k, row in enumerate(rows):
             lines.append(f"<tr class='{classes[k] if classes else ''}'>")
-            for cell, kind in zip(row, kinds):
+            for cell, kind in zip(row, kinds, strict=True):
                 text, value = cell if isinstance(cell, tuple) else (cell, None)
                 known = value is not None and math.isfinite(value)
                 data = f' data-value="{value!r}"' if known else ' data-value=""' if isinstance(cell, tuple) else ""
                 lines.append(f"<td{kind}{data}>{page_text(text)}</td>")
             lines.append("</tr>")
-        self.add("".join(lines + ["</tbody></table></div>"]))
+        self.add("".join([*lines, "</tbody></table></div>"]))
 
     def write(self, path):
+        """Writes the page."""
         head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{page_text(self.title)}</title>"
         head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"
         path.write_text(head + "\n".join(self.parts) + f"<script>{SCRIPT}</script></body></html>")

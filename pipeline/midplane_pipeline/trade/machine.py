@@ -1,4 +1,4 @@
-"""What a campaign was measured on."""
+"""The machine and the programs of a campaign."""
 
 import os
 import platform
@@ -9,7 +9,7 @@ from midplane_pipeline.bench.scenes import processor
 
 
 def said(*command):
-    """What a program says of itself, or nothing."""
+    """Output of a program about itself, or nothing."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=20)
     except (OSError, subprocess.TimeoutExpired):

@@ -46,7 +46,7 @@ def offset(scene, edges, seed, side):
         s, t = to_local(x, y)
         inside = (s > 0) & (s < 1)
         moved = to_global(np.where(inside, s + np.interp(s, nodes, moves), s), t)
-        return tuple(np.where(inside, new, old) for new, old in zip(moved, (x, y)))
+        return tuple(np.where(inside, new, old) for new, old in zip(moved, (x, y), strict=True))
 
     return move
 

@@ -36,6 +36,7 @@ from .tables import (
 
 
 def point_rows(scene):
+    """The rows of the table of all points, and their classes."""
     chosen = {tuple(row["settings"]) for row in scene["front"]}
     rows, classes = [], []
     for row in scene["points"]:
@@ -63,27 +64,34 @@ BENCHES = {
 
 
 def benches(folder):
-    """What the benches beside the campaign have printed, by heading."""
+    """Output of the benches beside the campaign, by heading."""
     files = {title: folder / f"{name}.txt" for name, title in BENCHES.items()}
     return {title: file.read_text() for title, file in files.items() if file.is_file()}
 
 
 def build(data, out):
+    """Writes the page."""
     page = Page("midplane: speed against accuracy")
     m = data["machine"]
     scenes = data["scenes"]
     page.heading("Speed against accuracy", 1)
     page.text(
-        f'{m["date"]}, {m["cpu"]}, {m["cores"]} cores, {m["midplane"]} at {m["commit"]}, gmsh {m["gmsh"]}. Load average {data["load_before"][0]:.1f} before and {data["load_after"][0]:.1f} after; {data["minutes"]:.0f} minutes, form "{data["form"]}".',
+        f"{m['date']}, {m['cpu']}, {m['cores']} cores, {m['midplane']} at {m['commit']}, gmsh {m['gmsh']}. "
+        f"Load average {data['load_before'][0]:.1f} before and {data['load_after'][0]:.1f} after; "
+        f'{data["minutes"]:.0f} minutes, form "{data["form"]}".',
         "note",
     )
     page.text(
-        "Every point is a process of its own on one thread. Time is the processor's for the whole process without the mesher, which does not count what others on the machine make it wait; wall clock is beside it in the tables. Points near the front are repeated, and of the repeats the fastest counts. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its setting.",
+        "Every point is a process of its own on one thread. Time is the processor's for the whole process without the mesher, which does not count "
+        "what others on the machine make it wait; wall clock is beside it in the tables. Points near the front are repeated, and of the repeats the "
+        "fastest counts. The error of a run is the largest of the errors named below each figure. Click a column to sort, hover over a point for its "
+        "setting.",
         "note",
     )
     page.heading("What to choose")
     page.text(
-        "One setting for all scenes: the fastest refinement and element that stay within the target on every one. Refinement 1 is that of the scenes' own files. The two sides never match: where their edges would, B has one more."
+        "One setting for all scenes: the fastest refinement and element that stay within the target on every one. Refinement 1 is that of the "
+        "scenes' own files. The two sides never match: where their edges would, B has one more."
     )
     page.table(*common_table(scenes))
     page.text("The fastest setting of each scene:")
@@ -148,6 +156,7 @@ def build(data, out):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("data", type=Path, help="results/trade/trade.json")
     parser.add_argument("-o", "--out", type=Path, help="folder of the page; that of the data if absent")

@@ -1,4 +1,4 @@
-"""Whether a front hangs on the places of nodes or on the axes, and how many instructions its points take.
+"""A front on moved nodes and turned axes, and the instructions of its points.
 
 Every point of a front is run again with the nodes of both sides of its joint moved by seeded fractions of an edge, with the
 whole scene turned, and under a counter of instructions. The first two give errors, which need no quiet machine; the third
@@ -151,7 +151,8 @@ def robustness(campaign, rows):
     front = Front(campaign, rows)
     offsets, (degrees, turned), (name, counted) = front.offsets(), front.turned(), front.instructions()
     result = [
-        {"labels": row["labels"], "error": row["error"], "offsets": a, "turned": b, "instructions": c} for row, a, b, c in zip(rows, offsets, turned, counted)
+        {"labels": row["labels"], "error": row["error"], "offsets": a, "turned": b, "instructions": c}
+        for row, a, b, c in zip(rows, offsets, turned, counted, strict=True)
     ]
     with open(campaign.out / "robust.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")

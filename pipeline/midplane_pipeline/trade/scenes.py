@@ -37,6 +37,7 @@ class Scene:
 
 
 def rounded(value, even):
+    """A count of at least one, or an even one."""
     step = 2 if even else 1
     return max(step, step * round(value / step))
 
@@ -47,7 +48,7 @@ def mesh(scene, refinement=1.0, ratio="own", element="Q8"):
     own = scene.counts[0]["edges"] / scene.counts[1]["edges"]
     factor = 1.0 if RATIOS[ratio] is None else math.sqrt(RATIOS[ratio] / own)
     settings = {}
-    for side, counts, of_side in zip(scene.sides, scene.counts, (factor, 1 / factor)):
+    for side, counts, of_side in zip(scene.sides, scene.counts, (factor, 1 / factor), strict=True):
         for name, count in counts.items():
             value = rounded(count * refinement * of_side, f"{side}.{name}" in scene.even)
             settings[f"subdomains.{side}.parameters.{name}"] = value
@@ -61,6 +62,7 @@ def mesh(scene, refinement=1.0, ratio="own", element="Q8"):
 
 
 def coupling(scene, kind, quadrature="gauss"):
+    """Settings of a coupling."""
     return {f"interfaces.{scene.joint}.coupling": kind, f"interfaces.{scene.joint}.quadrature": quadrature}
 
 
@@ -93,7 +95,10 @@ def knobs(scene):
     if scene.nonlinear:
         table["tolerance"] = {t: {"solution.tolerance": float(t)} for t in ("1e-8", "1e-3", "1e-4", "1e-6", "1e-10", "1e-12")}
         factors = {"1": 1, "0.125": 0.125, "0.25": 0.25, "0.5": 0.5, "2": 2, "4": 4}
-        increments = lambda factor: {key: max(1, math.ceil(n * factor)) for key, n in scene.steps}
+
+        def increments(factor):
+            return {key: max(1, math.ceil(n * factor)) for key, n in scene.steps}
+
         table["path_tolerance"] = {t: {"solution.path_tolerance": float(t)} for t in ("1e-3", "1e-1", "1e-2", "1e-4")}
         table["increments"] = {label: increments(factor) for label, factor in factors.items()}
         if not scene.without:
@@ -123,6 +128,7 @@ def settings(scene, labels):
 
 
 def last(of, reference):
+    """A measure: the last value, beside a reference."""
     return {"take": "last", "of": of, "reference": reference}
 
 

@@ -17,10 +17,12 @@ def cell(value, digits=3):
 
 
 def percent(value, digits=2):
+    """A share as a cell."""
     return ("failed", math.inf) if value is None else (f"{100 * value:.{digits}g} %", value)
 
 
 def seconds(value):
+    """A time as a cell."""
     return (f"{value:.4f}" if value < 1 else f"{value:.2f}", value)
 
 
@@ -47,7 +49,7 @@ def targets_table(scenes):
 
 
 def reaches(scene, target):
-    """Whether some refinement and element is within a target."""
+    """True if some refinement and element is within a target."""
     return fastest_within([row for row in scene["points"] if row["phase"] == "factorial"], target) is not None
 
 
@@ -67,7 +69,7 @@ def common_table(scenes):
             short = [name for name, scene in scenes.items() if not reaches(scene, target / 10)]
             knob = "refinement; none measured is enough for " + " and ".join(short or ["all at once"])
         else:
-            moved = [name for name, a, b in zip(("refinement", "element"), (refinement, element), following[0]) if a != b]
+            moved = [name for name, a, b in zip(("refinement", "element"), (refinement, element), following[0], strict=True) if a != b]
             there = f" → {following[0][1]} × {following[0][0]}"
             knob = " and ".join(moved) + there if moved else "none: this one has it"
         sizes = [f"{min(dofs):.0f} to {max(dofs):.0f}", f"{min(times):.1f} to {max(times):.1f}"]
@@ -76,6 +78,7 @@ def common_table(scenes):
 
 
 def presets_table(scenes):
+    """Every scene with every preset."""
     rows = [
         [
             name,
@@ -111,6 +114,7 @@ REPEATED = (
 
 
 def repeatability_table(scenes):
+    """Agreement of two measurements of every scene."""
     rows = []
     for name, scene in scenes.items():
         r = scene["repeatability"]
@@ -124,13 +128,13 @@ def repeatability_table(scenes):
 
 
 def spread_text(scenes):
-    """Where times vary by more than a tenth."""
+    """Scenes whose times vary by more than a tenth."""
     wide = [name for name, scene in scenes.items() if scene["repeatability"]["spread"] > 0.1]
     return f"The spread is above 10 % on {', '.join(wide)}." if wide else "The spread is nowhere above 10 %."
 
 
 def robust_text(robust):
-    """What the table of a robust front says."""
+    """The sentence above the table of a robust front."""
     how = {
         "perf": "counted by the processor (perf)",
         "valgrind": "counted by valgrind, on the processor that it imitates",
@@ -145,6 +149,7 @@ def robust_text(robust):
 
 
 def robust_table(robust):
+    """Errors with nodes moved and with the scene turned, and instructions."""
     rows = []
     for point in robust["points"]:
         error, known = point["error"], [e for e in point["offsets"] if e is not None]
@@ -158,6 +163,7 @@ def robust_table(robust):
 
 
 def features_table(features):
+    """Time and memory of the shear box with every feature."""
     rows = [
         [
             f["feature"],
@@ -176,6 +182,7 @@ def features_table(features):
 
 
 def refinements_text(d):
+    """A study against single runs, in a sentence."""
     study, runs = d["processor"]
     return (
         f"{d['study']:.1f} s as one study, {d['runs']:.1f} s as single runs ({d['runs_with_meshes']:.1f} s with their meshes "
@@ -185,7 +192,7 @@ def refinements_text(d):
 
 
 def penalty_claim(rows):
-    """What the data say of the claim about the couplings."""
+    """The claim about the couplings, from the data."""
     pairs = {}
     for row in rows:
         pairs.setdefault((row["stiffness"], row["element"], row["edges"]), {})[row["coupling"]] = row
@@ -201,13 +208,14 @@ def penalty_claim(rows):
         errors, times = ratios(of, "error"), ratios(of, "time")
         middle = sorted(times)[len(times) // 2]
         less = sum(r <= 1.0 for r in errors)
-        return f"{where}: projected is at least as accurate in {less} of {len(errors)} pairs (error ratio {min(errors):.2g} to {max(errors):.2g}); time ratio {middle:.2f} in the median, {min(times):.2f} to {max(times):.2f}."
+        accurate = f"at least as accurate in {less} of {len(errors)} pairs (error ratio {min(errors):.2g} to {max(errors):.2g})"
+        return f"{where}: projected is {accurate}; time ratio {middle:.2f} in the median, {min(times):.2f} to {max(times):.2f}."
 
     return [said(stiff, "K_N h/E above 1"), said(soft, "K_N h/E up to 1")]
 
 
 def coupling_claim(scenes):
-    """What the couplings cost and give on every scene at its reference setting."""
+    """Cost and error of the couplings on every scene at its reference setting."""
     lines = []
     for name, scene in scenes.items():
         sweep = [row for row in scene["points"] if row["phase"] == "sweep"]

@@ -67,7 +67,7 @@ class Turn:
         return measure | {"exact": [self.formula(value) for value in measure["exact"]]}
 
     def columns(self, probe):
-        """What the history must have for a probe: both components of a displacement; reactions are there."""
+        """Columns that the history must have for a probe: both components of a displacement; reactions are there."""
         if displacement := re.fullmatch(r"(.+\.displacement_)[xy]", probe):
             return [displacement[1] + name for name in "xy"]
         return [] if probe.startswith("reaction:") else [probe]
@@ -75,7 +75,7 @@ class Turn:
     def along(self, history, probe):
         """The values of a probe along a history, in the old axes."""
         if component := re.fullmatch(r"(.+\.displacement_|reaction:.+:)([xy])", probe):
-            pairs = zip(history[component[1] + "x"], history[component[1] + "y"])
+            pairs = zip(history[component[1] + "x"], history[component[1] + "y"], strict=True)
             return [self.back(x, y)["xy".index(component[2])] for x, y in pairs]
         return history[probe]
 

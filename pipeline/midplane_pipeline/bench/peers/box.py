@@ -33,6 +33,7 @@ class Box:
         self.pushed = np.concatenate([dof(sides[2], 0), dof(sides[3], 0)])
 
     def pull(self, nodes, along, direction, traction):
+        """Adds a uniform traction on nodes that lie along an axis."""
         nodes, forces = common.forces(self.points, nodes, along, traction)
         self.f[self.dof(nodes, direction)] += forces
 
@@ -59,7 +60,7 @@ class Box:
 
         def places(rows, columns):
             return np.array(
-                [whole.indptr[r] + np.searchsorted(whole.indices[whole.indptr[r] : whole.indptr[r + 1]], c) for r, c in zip(rows, columns)],
+                [whole.indptr[r] + np.searchsorted(whole.indices[whole.indptr[r] : whole.indptr[r + 1]], c) for r, c in zip(rows, columns, strict=True)],
                 dtype=np.int64,
             )
 
@@ -81,6 +82,7 @@ class Box:
 
 
 def springs(size):
+    """Tangents of springs at so many law points."""
     return (
         np.full(size, common.NORMAL_STIFFNESS),
         np.zeros(size),

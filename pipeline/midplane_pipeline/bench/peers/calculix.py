@@ -26,6 +26,7 @@ ENDS = [f"{body}.{end}" for body in ("lower", "upper") for end in ("left", "righ
 
 
 def table(rows):
+    """Rows of a deck."""
     return "\n".join(", ".join(map(str, row)) for row in rows)
 
 
@@ -33,16 +34,17 @@ def surface(name, points, cells, first):
     """The edges at y = 0 as faces S1 to S4 of the elements from number `first`."""
     low = np.isin(cells, common.on_joint(points))
     cell, face = np.nonzero(low & np.roll(low, -1, axis=1))
-    return f"*SURFACE, NAME={name}\n" + table((c + first, f"S{f + 1}") for c, f in zip(cell, face))
+    return f"*SURFACE, NAME={name}\n" + table((c + first, f"S{f + 1}") for c, f in zip(cell, face, strict=True))
 
 
 def loads(points, nodes, along, traction):
     """Forces along y."""
     nodes, forces = common.forces(points, nodes, along, traction)
-    return table((node + 1, 2, force) for node, force in zip(nodes, forces))
+    return table((node + 1, 2, force) for node, force in zip(nodes, forces, strict=True))
 
 
 def model(layers, points, cells, at, behaviour):
+    """Nodes, elements, material and joint of a deck."""
     yield "*NODE, NSET=ALL"
     yield table((number, x, y, 0.0) for number, (x, y) in enumerate(points.tolist(), 1))
     yield "*ELEMENT, TYPE=CPE4, ELSET=ROCK"
@@ -61,6 +63,7 @@ def model(layers, points, cells, at, behaviour):
 
 
 def elastic(points, at):
+    """The step that bends the layers."""
     yield "*BOUNDARY\nlower.left, 1, 2\nupper.left, 1, 2"
     yield "*STEP\n*STATIC, DIRECT\n1.0, 1.0\n*CLOAD"
     for end in ("lower.right", "upper.right"):
@@ -68,6 +71,7 @@ def elastic(points, at):
 
 
 def friction(points, at):
+    """The steps that press the box and shear it."""
     yield "*BOUNDARY\nbottom, 2, 2\n" + table((end, 1, 1) for end in ENDS)
     yield "*STEP\n*STATIC, DIRECT\n1.0, 1.0\n*CLOAD\n" + loads(points, at["top"], 0, -common.PRESSURE)
     yield f"*END STEP\n*STEP, INC=1000\n*STATIC, DIRECT\n{1 / common.INCREMENTS}, 1.0"
@@ -111,6 +115,7 @@ def column(frd, name):
 
 
 def main(problem, folder, out):
+    """The command."""
     layers = meshes.read(folder)
     clock.end("read")
     points, at = common.sides(layers)

@@ -1,4 +1,4 @@
-"""What every peer shares: the segments between the two meshes, the law, and how a run is timed and told.
+"""Common to all peers: the segments between the two meshes, the law, and how a run is timed and told.
 
 Points along the joint carry the law: two Gauss points on every segment between two projected nodes, as `pointwise`."""
 
@@ -23,11 +23,13 @@ class Clock:
         self.stages = {}
 
     def end(self, stage):
+        """Ends a stage."""
         now = time.perf_counter()
         self.stages[stage] = self.stages.get(stage, 0.0) + now - self.since
         self.since = now
 
     def tell(self, **answers):
+        """Prints times, memory and answers as one line of JSON."""
         peak = 1024 * max(resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
         total = time.perf_counter() - self.start
         print(json.dumps({"time": {**self.stages, "total": total}, "peak_memory_bytes": peak, **answers}))

@@ -27,6 +27,8 @@ BOTH = ("elastic", "friction")
 
 
 class Peer(NamedTuple):
+    """Another program: its module, options, scenes, and how it is had."""
+
     module: str
     options: list
     scenes: tuple
@@ -59,6 +61,7 @@ def interpreter(python, wanted):
 
 
 def environment(python, module, out, threads):
+    """Variables of a peer's process: threads, the package, and MKL where NGSolve finds it."""
     names = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "NGS_NUM_THREADS")
     variables = os.environ | {name: str(threads) for name in names} | {"PYTHONPATH": str(PIPELINE)}
     if module != "ngsolve":
@@ -75,6 +78,7 @@ def environment(python, module, out, threads):
 
 
 def peer(python, name, problem, here, out, threads, limit):
+    """A run of a peer as a row."""
     wanted = PEERS[name]
     command = [python, "-m", f"midplane_pipeline.bench.peers.{wanted.module}", problem, here, here / "peer.vtu", *wanted.options]
     variables = environment(python, wanted.module, out, threads)
@@ -102,6 +106,7 @@ def peer(python, name, problem, here, out, threads, limit):
 
 
 def ours(program, scene, coupling):
+    """A run of midplane as a row."""
     found = scenes.run(program, scene, f"--set=interfaces.joint.coupling={coupling}")
     names = ("dofs", "seconds", "iterations", "iteration", "peak_bytes_per_dof", "answer", "traction")
     row = {"program": f"midplane, {coupling}"} | {n: found[n] for n in names}
@@ -162,6 +167,7 @@ def agree(rows, where):
 
 
 def main():
+    """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
     parser.add_argument("python", help="a Python with bench/peers/requirements.txt installed")

@@ -33,6 +33,7 @@ COULOMB = f"[{SLIDE}; -{PRESS}]"
 
 
 def body(points, cells):
+    """The mesh of a layer with regions for its outer sides."""
     mesh = gf.Mesh("empty", 2)
     mesh.add_convex(gf.GeoTrans("GT_QK(2,1)"), points[cells[:, [0, 1, 3, 2]]].transpose(2, 1, 0))
     for region, outward in OUTWARD.values():
@@ -41,6 +42,7 @@ def body(points, cells):
 
 
 def segments(layers):
+    """The mesh of the segments between both sides of the joint."""
     ends = common.cuts(*(points[common.on_joint(points), 0] for points, _ in layers))
     ends = np.stack([ends[:-1], ends[1:]])
     mesh = gf.Mesh("empty", 2)
@@ -55,7 +57,7 @@ class Joined:
         self.model = gf.Model("real")
         joint = segments(layers)
         self.mesh, self.fem, self.inside = {}, {}, {}
-        for side, layer in zip("ab", layers):
+        for side, layer in zip("ab", layers, strict=True):
             mesh = self.mesh[side] = body(*layer)
             self.fem[side] = gf.MeshFem(mesh, 2)
             self.fem[side].set_fem(gf.Fem("FEM_QK(2,1)"))
@@ -73,6 +75,7 @@ class Joined:
             self.model.add_nonlinear_term(self.joint, f"{law}.{TEST}")
 
     def pull(self, side, region, traction):
+        """A traction on a region of a body."""
         self.model.add_source_term_brick(self.inside[side], f"u_{side}", traction, region)
 
     def hold(self, side, region, *outwards):
@@ -89,10 +92,12 @@ class Joined:
         return iterations
 
     def at_points(self, expression):
+        """An expression at the law points."""
         return self.model.interpolation(expression, self.law_points)
 
 
 def elastic(made):
+    """Answers of the bent layers."""
     for side in "ab":
         # to take held dofs out of the matrix costs GetFEM more than the assembly
         made.model.add_Dirichlet_condition_with_multipliers(made.inside[side], f"u_{side}", 1, LEFT)
@@ -108,6 +113,7 @@ def elastic(made):
 
 
 def friction(made, increments=common.INCREMENTS):
+    """Answers of the friction box."""
     model = made.model
     model.add_initialized_data("shift", 0.0)
     model.add_initialized_data("back", 0.0)
@@ -135,6 +141,7 @@ def friction(made, increments=common.INCREMENTS):
 
 
 def write(made, side, out):
+    """The fields of a body as VTU."""
     fem = made.fem[side]
     cells = gf.MeshFem(made.mesh[side], 4)
     cells.set_fem(gf.Fem("FEM_QK(2,0)"))
@@ -145,6 +152,7 @@ def write(made, side, out):
 
 
 def main(problem, folder, out):
+    """The command."""
     gf.util("trace level", 0)
     layers = meshes.read(folder)
     clock.end("read")

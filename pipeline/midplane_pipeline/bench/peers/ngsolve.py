@@ -19,6 +19,7 @@ clock.end("import")
 
 
 def mesh_of(points, cells):
+    """A mesh of quadrilaterals."""
     net = Netgen(dim=2)
     net.AddPoints(np.ascontiguousarray(np.column_stack([points, np.zeros(len(points))])))
     face = net.Add(FaceDescriptor(bc=1, surfnr=1))
@@ -27,6 +28,8 @@ def mesh_of(points, cells):
 
 
 def solver(kind):
+    """The class that factors with a solver of that name."""
+
     class Solver:
         """One matrix whose values change; its inverse is updated, so that the analysis is done once."""
 
@@ -58,6 +61,7 @@ def solver(kind):
 
 
 def main(problem, folder, out, kind):
+    """The command."""
     layers = meshes.read(folder)
     shift = len(layers[0][0])
     points = np.vstack([layers[0][0], layers[1][0]])

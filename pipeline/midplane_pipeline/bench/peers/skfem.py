@@ -34,6 +34,7 @@ class Pardiso:
         self.analysed = False
 
     def solve(self, data, b):
+        """Factors the values and solves."""
         a = self.half
         if a is None:
             a = self.matrix
@@ -55,6 +56,7 @@ class SuperLu:
         self.matrix = matrix
 
     def solve(self, data, b):
+        """Factors the values and solves."""
         from scipy.sparse.linalg import splu
 
         self.matrix.data = data
@@ -64,6 +66,7 @@ class SuperLu:
 
 
 def main(problem, folder, out):
+    """The command."""
     layers = meshes.read(folder)
     shift = len(layers[0][0])
     points = np.vstack([layers[0][0], layers[1][0]])

@@ -8,6 +8,7 @@ A run that ends at the most factorisations tells no push."""
 import json
 import re
 import sys
+from pathlib import Path
 
 from . import common
 
@@ -78,8 +79,9 @@ def joints(bricks, points, dof, size):
 
 
 def main(scene_file, mesh_file, library="pardiso", most="1000000"):
+    """The command."""
     pardiso = library == "pardiso" and pypardiso is not None
-    scene = json.load(open(scene_file))
+    scene = json.loads(Path(scene_file).read_text())
     law, material = scene["interfaces"]["joints"]["law"], scene["materials"]["brick"]
     common.NORMAL_STIFFNESS, common.TANGENTIAL_STIFFNESS = law["normal_stiffness"], law["tangential_stiffness"]
     common.FRICTION = law["friction_coefficient"]

@@ -62,7 +62,7 @@ def damaged(t):
         "no elements": whole[: whole.index("$Elements")],
         "no nodes": whole[: whole.index("$Nodes")] + whole[whole.index("$Elements") :],
     }
-    cells = [block for block in meshes["b"].blocks if block[0] == 2][0][3]
+    cells = next(block for block in meshes["b"].blocks if block[0] == 2)[3]
     flat = meshes["b"].points.copy()
     flat[cells[0][3]] = flat[cells[0][0]]
     flat[cells[0][2]] = flat[cells[0][1]]
@@ -76,7 +76,7 @@ def damaged(t):
         _, memory = measured(t, text, {**meshes, "b": damages[what]})
         t.below(f"{what}: memory [bytes]", memory, usual + 2 * size + 4e6)
     curved = rectangle(even(0, 1, 5), even(0, 0.5, 2), "Q8")
-    inner = [b for b in curved.blocks if b[0] == 2][0][3][0]
+    inner = next(block for block in curved.blocks if block[0] == 2)[3][0]
     curved.points[inner[4]] = curved.points[inner[2]] + [0.5, 0.5]
     quadratic = rectangle(even(0, 1, 3), even(-0.5, 0, 2), "Q8")
     t.refused("a mid-node far off its edge", t.program.run(text, {"a": quadratic, "b": curved}), "b.msh")

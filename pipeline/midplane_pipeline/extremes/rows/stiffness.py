@@ -25,10 +25,7 @@ def numbers(t):
 )
 def stiffness(t):
     curves = {}
-    for name, patch, low in (
-        ("case 1", Patch(e=(1e4, 1e4), nu=(0.0, 0.0), snt=0.0, ett=0.0, theta=0.0, snn=-10.0), 1),
-        ("case 1b", Patch(), 1),
-    ):
+    for name, patch in (("case 1", Patch(e=(1e4, 1e4), nu=(0.0, 0.0), snt=0.0, ett=0.0, theta=0.0, snn=-10.0)), ("case 1b", Patch())):
         for number in numbers(t):
             k = float(number) * min(patch.e) * 7
             patch.kn = patch.kt = k
@@ -38,9 +35,9 @@ def stiffness(t):
         for number in numbers(t):
             k = float(number) * stiff
             run = t.program.run(text(k), meshes)
-            answered(t, curves, name, number, run, lambda run, k=k: round_off(run, *precise.solve(k)))
+            answered(t, curves, name, number, run, lambda run, k=k, precise=precise: round_off(run, *precise.solve(k)))
     for what, i in (("displacement", 0), ("traction", 1)):
-        series = [(name, *zip(*((n, errors[i]) for n, errors in found))) for name, found in curves.items() if found]
+        series = [(name, *zip(*((n, errors[i]) for n, errors in found), strict=True)) for name, found in curves.items() if found]
         t.curves.append(
             Curve(
                 f"round_off_{what}",
@@ -143,7 +140,7 @@ def floor_of_pointwise(t):
                 t.refused(f"pointwise, {name}, K h/E = {number:.0e}", run, "K_N h/E")
     lines = []
     for name, found in series.items():
-        n, u, traction = zip(*found)
+        n, u, traction = zip(*found, strict=True)
         lines += [(f"{name}: displacement", n, u), (f"{name}: traction", n, traction)]
         t.note(f"Floor of `pointwise`, {name}: traction {traction[-1]:.0e}, displacement {u[-1]:.0e} at K h/E = {n[-1]:.0e}.")
     t.curves.append(Curve("pointwise", "Round-off of pointwise", "K h/E", "relative error", lines))
@@ -195,7 +192,7 @@ def discretisation(t):
             traction.append((label, numbers, [e for _, e in found]))
             if coupling == "projected":
                 t.below(f"{label}: traction at K h/E = 800", found[numbers.index(8e2)][1], 0.05)
-                stiff = np.array([e for number, e in zip(numbers, found) if number >= 8e2])
+                stiff = np.array([e for number, e in zip(numbers, found, strict=True) if number >= 8e2])
                 spread = stiff.max(0) / stiff.min(0) - 1
                 t.below(f"{label}: energy error, change over K h/E ≥ 800", spread[0], 0.01)
                 t.below(f"{label}: traction error, change over K h/E ≥ 800", spread[1], 0.01)
@@ -229,7 +226,7 @@ def one_direction(t):
     run = t.program.run(patch.scene(), patch.meshes(7, 11, "Q4")).need()
     t.below("case 1b, K_T = 0: displacement", patch.errors(run)[0], 1e-10)
     t.below("case 1b, K_T = 0: traction", patch.errors(run)[1], 1e-10)
-    text, meshes = case_3(2e4)
+    text, _ = case_3(2e4)
     text["interfaces"]["joint"]["law"] = elastic(2e4, 0.0)
     text["steps"][0]["load"] = {"b.top": {"pressure": 10.0}}
     whole = {body: rectangle(even(0, 1, n), even(*r, 3), "Q4", arc(0.0, np.pi)) for body, n, r in (("a", 14, (1, 1.5)), ("b", 20, (1.5, 2)))}
