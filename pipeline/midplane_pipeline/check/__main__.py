@@ -14,6 +14,7 @@ import argparse
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 from midplane import scene_file
 from midplane.stored import Stored
@@ -35,12 +36,14 @@ SUMMARY_KEYS = {"title", "sizes", "variables", "solution", "equilibrium", "time"
 LENGTH = 1e-9  # what the law points leave out of an interface
 
 
-def collection(path, faults):
+def collection(path: Path, faults: Faults) -> tuple[list[Path], list[int]]:
     """The files that the .pvd names, which must be all there are in fields/, and their times."""
-    named, times, last = [], [], 0.0
+    named: list[str] = []
+    times: list[int] = []
+    last = 0.0
     for dataset in ElementTree.parse(path).iter("DataSet"):
-        named.append(dataset.get("file"))
-        time = float(dataset.get("timestep"))
+        named.append(dataset.get("file", ""))
+        time = float(dataset.get("timestep", "nan"))
         # the number of the row, whatever the load does
         row = int(Path(named[-1]).stem.rpartition("_")[2])
         faults.expect(time == row and time >= last, f"{path}: time {time:g} at {named[-1]}")
@@ -52,7 +55,7 @@ def collection(path, faults):
     return [path.parent / file for file in named if file in present], sorted(set(times))
 
 
-def check(results, scene, energy, known, faults):
+def check(results: Path, scene: dict[str, Any], energy: float, known: argparse.Namespace, faults: Faults) -> str:
     """All checks of one results folder, and what is known of it. Returns the sentence for the user."""
     for name in ("history.csv", "summary.json"):
         if not faults.expect((results / name).is_file(), f"{results}: no {name}"):
@@ -80,7 +83,8 @@ def check(results, scene, energy, known, faults):
     )
     rows = rows[1:]  # beyond the unloaded state
     variables = [variable["name"] for variable in summary["variables"]]
-    interfaces, last = {}, 0
+    interfaces: dict[int, dict[str, Any]] = {}
+    last = 0
     for path in files:
         name, _, number = path.stem.rpartition("_")
         last = max(last, int(number))
@@ -118,10 +122,10 @@ def check(results, scene, energy, known, faults):
     )
 
 
-def check_known(results, rows, fields, known, faults):
+def check_known(results: Path, rows: list[dict[str, Any]], fields: dict[str, Any], known: argparse.Namespace, faults: Faults) -> None:
     """All that is known of the scene."""
 
-    def others(name):
+    def others(name: str) -> list[dict[str, Any]]:
         """The rows of another file of the scene, whose results lie beside these."""
         folder = results.parent / known.scene.parent.name
         path = (folder if name == "scene" else folder.with_name(f"{folder.name}_{name}")) / "history.csv"
@@ -137,7 +141,7 @@ def check_known(results, rows, fields, known, faults):
         every.check(results, rows, faults)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(
         prog="python -m midplane_pipeline.check",
@@ -158,7 +162,7 @@ def main():
         ("--like", Like, "a value is as in the run of another file of the scene, part of it"),
         ("--every", Every, "a column is what others make it"),
     ):
-        many = {"action": "append", "default": [], "metavar": form.__doc__.partition(",")[0]}
+        many: dict[str, Any] = {"action": "append", "default": [], "metavar": str(form.__doc__).partition(",")[0]}
         parser.add_argument(option, type=argument(form), help=meaning, **many)
     arguments = parser.parse_args()
     faults = Faults()

@@ -12,18 +12,25 @@ that share nodes and move in the same direction would count a reaction twice; th
 
 import contextlib
 import io
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
 from midplane import scene_file
-from midplane.vtu import Vtu
+from midplane.vtu import Array, Vtu
+
+from midplane_pipeline.check.faults import Faults
 
 PROBES = ["work.external", "energy.stored", "energy.dissipated", "energy.released"]
 ROUND_OFF = 1e-9  # of the quantity compared
 TRAPEZOIDAL = 2e-3  # of the largest energy of the run: forces bend between two rows
 
 
-def check_energies(path, scene, results, summary, rows, allowed, faults):
+def check_energies(
+    path: Path | str, scene: dict[str, Any], results: Path, summary: dict[str, Any], rows: list[dict[str, Any]], allowed: float, faults: Faults
+) -> str:
     """The balance as told, as it follows from the energies, and their work. Returns the words for the user."""
     for number, row in enumerate(rows, 1):
         left = row["energy_balance"]
@@ -47,7 +54,9 @@ def check_energies(path, scene, results, summary, rows, allowed, faults):
     return f"{said}, work to {worst:.1e} in {known} increments" if known else said
 
 
-def check_work(path, scene, results, summary, rows, energies, size, faults):
+def check_work(
+    path: Path | str, scene: dict[str, Any], results: Path, summary: dict[str, Any], rows: list[dict[str, Any]], energies: Array, size: float, faults: Faults
+) -> tuple[float, int]:
     """Work against the trapezoidal rule, both over `size`. Returns the largest difference, and of how many rows."""
     snaps = {snap["increment"] for snap in summary["solution"]["snaps"]}
     columns = {probe: name for name, probe in scene_file.probes(scene).items()}
@@ -69,10 +78,11 @@ def check_work(path, scene, results, summary, rows, energies, size, faults):
     return worst, known
 
 
-def increases(scene, results, rows, columns):
+def increases(scene: dict[str, Any], results: Path, rows: list[dict[str, Any]], columns: dict[str, str]) -> Iterator[tuple[float, float] | None]:
     """Work of every increment by the trapezoidal rule, and half of change of force × way; none if it is not known."""
     before = start = dict.fromkeys(rows[0], 0.0)
-    held, loads = {}, {}
+    held: dict[tuple[str, str], Any] = {}
+    loads: dict[str, Any] = {}
     for step in scene["steps"]:
         first = before is start
         ways, held = motions(step, held, before, columns, first)
@@ -94,14 +104,16 @@ def increases(scene, results, rows, columns):
             before, level = row, now
 
 
-def motions(step, held, before, columns, first):
+def motions(
+    step: dict[str, Any], held: dict[tuple[str, str], Any], before: dict[str, Any], columns: dict[str, str], first: bool
+) -> tuple[dict[str, float] | None, dict[tuple[str, str], Any]]:
     """Way over a step by column of the reaction, none if one is not known; displacement at its end by group."""
     wanted = {(group, d): 0.0 for group, directions in step.get("fix", {}).items() for d in directions}
     wanted |= {(group, d): v for group, own in step.get("displace", {}).items() for d, v in own.items()}
     ways, known = {}, True
     for (group, direction), end in wanted.items():
         # a group that was free goes on from its mean
-        mean = 0.0 if first else before.get(columns.get(f"{group}.displacement_{direction}"))
+        mean = 0.0 if first else before.get(columns.get(f"{group}.displacement_{direction}", ""))
         start = held.get((group, direction), mean)
         if start is None or isinstance(start, str) or isinstance(end, str):
             known = False
@@ -112,13 +124,13 @@ def motions(step, held, before, columns, first):
     return ways if known else None, held
 
 
-def given(step, scene, results):
+def given(step: dict[str, Any], scene: dict[str, Any], results: Path) -> dict[str, Any]:
     """Resultants (x, y) at the end of a step of the loads that it names; none for those that are not known."""
     loads = {group: resultant(group, load, scene, results) for group, load in step.get("load", {}).items()}
     return loads | {key: None for key in ("body_force", "gravity") if key in step}
 
 
-def resultant(group, load, scene, results):
+def resultant(group: str, load: dict[str, Any], scene: dict[str, Any], results: Path) -> Array | None:
     """Resultant of a load; none if it has a formula, or if its group is not straight."""
     if any(isinstance(number, str) for value in load.values() for number in np.ravel(value).tolist()):
         return None
@@ -130,7 +142,7 @@ def resultant(group, load, scene, results):
     return -load["pressure"] * outward if "pressure" in load else np.hypot(*outward) * np.array(load["traction"])
 
 
-def area(group, scene, results):
+def area(group: str, scene: dict[str, Any], results: Path) -> Array | None:
     """Outward normal of a group times its area, if the group is straight with all of its subdomain behind; else none."""
     subdomain, _, curve = group.partition(".")
     mesh = mesh_of(subdomain, results)
@@ -152,19 +164,19 @@ def area(group, scene, results):
     return scene.get("thickness", 1.0) * length * normal if straight else None
 
 
-def mesh_of(subdomain, results):
+def mesh_of(subdomain: str, results: Path) -> Any:
     """The mesh that the fields of a subdomain stand on; none if they are not stored."""
     fields = sorted(results.glob(f"fields/{subdomain}_*.vtu"))
     for path in sorted(results.glob(f"mesh/{subdomain}-*.msh")) if fields else []:
         with contextlib.redirect_stdout(io.StringIO()):  # the reader prints an empty line
             mesh = meshio.read(path)
-        points = [np.unique(grid.points, axis=0) for grid in (mesh, Vtu(fields[0]))]
-        if np.array_equal(*points):
+        own, stored = (np.unique(grid.points, axis=0) for grid in (mesh, Vtu(fields[0])))
+        if np.array_equal(own, stored):
             return mesh
     return None
 
 
-def ramped(old, new, columns):
+def ramped(old: dict[str, Any], new: dict[str, Any], columns: dict[str, str]) -> list[tuple[str, float, float]] | None:
     """(Column of the displacement, force at the start of a step, at its end) of the loads; none if one is not known."""
     ramps = []
     for group, end in new.items():

@@ -1,14 +1,19 @@
 """The rows of history.csv: columns in order, finite numbers, steps of the scene, increments that count."""
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 from midplane.stored import text_rows
+
+from midplane_pipeline.check.faults import Faults
 
 HISTORY_COLUMNS = ["step", "increment", "load_factor", "iterations", "residual"]
 
 
-def supports(scene):
+def supports(scene: dict[str, Any]) -> set[str]:
     """Columns of the reactions: whatever a step fixes, moves or holds."""
-    columns = set()
+    columns: set[str] = set()
     for step in scene["steps"]:
         for key in ("fix", "displace", "hold"):
             for group, directions in step.get(key, {}).items():
@@ -16,9 +21,9 @@ def supports(scene):
     return columns
 
 
-def read_history(path, scene, faults):
+def read_history(path: Path, scene: dict[str, Any], faults: Faults) -> list[dict[str, Any]]:
     """The rows of history.csv, numbers as numbers."""
-    rows = text_rows(path)
+    rows: list[dict[str, Any]] = list(text_rows(path))
     columns = list(rows[0]) if rows else []
     probes = list(scene.get("output", {}).get("history", {}))
     wanted = HISTORY_COLUMNS + probes

@@ -11,6 +11,7 @@ import itertools
 import json
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from paraview import simple
@@ -29,20 +30,20 @@ ENLARGED = 0.1  # largest displacement on the picture, of the size of the scene
 SIZE = [1200, 800]
 
 
-def expect(right, fault):
+def expect(right: Any, fault: Any) -> None:
     """Ends with a message where something is wrong."""
     if not right:
         sys.exit(f"test_paraview: {fault}")
 
 
-def leaf(block):
+def leaf(block: Any) -> Any:
     """The grid of a block."""
     while block.IsA("vtkMultiBlockDataSet"):
         block = block.GetBlock(0)
     return block
 
 
-def check_arrays(name, data, wanted):
+def check_arrays(name: str, data: Any, wanted: Any) -> None:
     """The arrays are there, their components bear their names."""
     there = {data.GetArrayName(k): data.GetArray(k) for k in range(data.GetNumberOfArrays())}
     expect(wanted <= there.keys(), f"{name} lacks {sorted(wanted - there.keys())}")
@@ -51,7 +52,7 @@ def check_arrays(name, data, wanted):
         expect(found == COMPONENTS[key], f"components of {key} of {name} are {found}, not {COMPONENTS[key]}")
 
 
-def check_blocks(source, summary):
+def check_blocks(source: Any, summary: dict[str, Any]) -> Any:
     """Names of the blocks and what they hold."""
     data = source.GetClientSideObject().GetOutputDataObject(0)
     blocks = {data.GetMetaData(k).Get(data.NAME()): leaf(data.GetBlock(k)) for k in range(data.GetNumberOfBlocks())}
@@ -65,12 +66,12 @@ def check_blocks(source, summary):
     return blocks
 
 
-def selectors(names):
+def selectors(names: Any) -> list[Any]:
     """Blocks by their names as they are: nodes of the assembly have them without blanks and such."""
     return [f'//*[@label="{name}"]' for name in sorted(names)]
 
 
-def warped(source, blocks, interfaces):
+def warped(source: Any, blocks: Any, interfaces: Any) -> Any:
     """The scene, displacements enlarged, coloured by von Mises' stress, with the interfaces on it, in a view."""
     bounds = [grid.GetBounds() for grid in blocks.values()]
     size = max(max(b[1] for b in bounds) - min(b[0] for b in bounds), max(b[3] for b in bounds) - min(b[2] for b in bounds))
@@ -99,7 +100,7 @@ def warped(source, blocks, interfaces):
     return view
 
 
-def pixels(path):
+def pixels(path: Path) -> Any:
     """The values of a picture."""
     reader = vtkPNGReader()
     reader.SetFileName(str(path))
@@ -107,7 +108,7 @@ def pixels(path):
     return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
 
 
-def main():
+def main() -> None:
     """One results folder."""
     results, pictures = Path(sys.argv[1]), Path(sys.argv[2])
     pictures.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,14 @@
 """The fields of an interface and its mid-plane: what law points carry, and what faces may do."""
 
 from fnmatch import fnmatch
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyvista
+from midplane.vtu import Array
+
+from midplane_pipeline.check.faults import Faults
 
 from .readers import read_thrice
 from .subdomain import ROUND_OFF, check_arrays
@@ -35,14 +40,14 @@ SEEN, FOLLOWED = 0.05, 0.1  # a jump that is so much of the displacements is in 
 NOTHING = 1e-9  # of the largest traction of an interface: less is rounding
 
 
-def water_of(scene, name):
+def water_of(scene: dict[str, Any], name: str) -> list[Any]:
     """Pressures that steps give an interface, by its name, its entry or a pattern."""
     keys = (name, name.partition("~")[0])
     loads = [item for step in scene["steps"] for item in step.get("load", {}).items()]
     return [load["pressure"] for key, load in loads if "pressure" in load and "." not in key and (key in keys or fnmatch(name, key))]
 
 
-def check_moves(path, grid, faults):
+def check_moves(path: Path, grid: Any, faults: Faults) -> None:
     """The sides move apart as the jump says, where it is no small part of what they move. Points of the law carry what the coupling makes
     of the sides, which on an interface of two segments is far from their own distance at a crack's end, but has the same mean."""
     normal = grid["normal"][:, :2]
@@ -50,7 +55,7 @@ def check_moves(path, grid, faults):
     apart = (grid["displacement_b"] - grid["displacement_a"])[:, :2]
     own = np.column_stack([(apart * normal).sum(axis=1), (apart * tangent).sum(axis=1)])
 
-    def mean(field):
+    def mean(field: Array) -> float:
         return grid["length"] @ np.linalg.norm(field, axis=1)
 
     jump = mean(grid["jump"])
@@ -59,7 +64,7 @@ def check_moves(path, grid, faults):
         faults.expect(lacking <= FOLLOWED * jump, f"{path}: the sides do not move apart by the jump")
 
 
-def check_interface(path, grid, law, variables, water, moves, faults):
+def check_interface(path: Path, grid: Any, law: dict[str, Any], variables: list[str], water: list[Any], moves: bool, faults: Faults) -> None:
     """Law points in order along the mid-plane, with lengths, unit normals, known statuses and the variables of the laws, none ever negative.
 
     Where it `moves` from the start its sides move apart by the jump; with water its pressure is what the total traction lacks, and apertures are above
@@ -105,7 +110,7 @@ def check_interface(path, grid, law, variables, water, moves, faults):
     faults.expect(np.abs(lengths - 1).max() <= ROUND_OFF, f"{path}: a normal is not of unit length")
 
 
-def check_faces(path, grid, faults):
+def check_faces(path: Path, grid: Any, faults: Faults) -> None:
     """Open faces carry no traction, closed ones no tension, and faces that are apart no compression. In every law but the
     elastic one these are apart where the normal jump is above its irreversible part."""
     status, traction = grid["status"], grid["traction"]
@@ -114,7 +119,7 @@ def check_faces(path, grid, faults):
     nothing = NOTHING * np.abs(traction).max(initial=0.0)
     narrow = GAP * max(np.abs(grid[name]).max(initial=0.0) for name in ("jump", "jump_plastic"))
 
-    def expect_none(wrong, text):
+    def expect_none(wrong: Array, text: str) -> None:
         faults.expect(not wrong.any(), f"{path}: {text} at {wrong.sum()} of {len(wrong)} law points")
 
     expect_none((status == OPEN) & (np.abs(traction) > nothing).any(axis=1), "traction across open faces")
@@ -124,7 +129,7 @@ def check_faces(path, grid, faults):
     expect_none((gap > narrow) & (sigma < -nothing), "compression through a gap")
 
 
-def check_midplane(path, faults):
+def check_midplane(path: Path, faults: Faults) -> None:
     """Segments (kind 0) with their parent edges, and cells of the grid (kind 1)."""
     grid = read_thrice(path, faults)
     if grid is None:

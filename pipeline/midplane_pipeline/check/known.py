@@ -13,12 +13,20 @@ import ast
 import itertools
 import math
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from midplane.stored import Stored
 
-OPERATORS = {
+from midplane_pipeline.check.faults import Faults
+
+Rows = list[dict[str, Any]]
+Found = tuple[bool, Any]  # whether a name has this form, and its value
+
+OPERATORS: dict[type, Callable[..., Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
@@ -27,21 +35,21 @@ OPERATORS = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-FUNCTIONS = {"min": min, "max": max, "abs": abs, "sqrt": math.sqrt}
+FUNCTIONS: dict[str, Callable[..., Any]] = {"min": min, "max": max, "abs": abs, "sqrt": math.sqrt}
 
 
 class Formula:
     """A formula of columns of a row: numbers, names, quoted if they are no words, + - * / **, brackets, min, max, abs, sqrt."""
 
-    def __init__(self, text):
+    def __init__(self, text: str) -> None:
         self.text, self.tree = text, ast.parse(text, mode="eval").body
         self.value(self.tree, None)
 
-    def __call__(self, row):
+    def __call__(self, row: dict[str, Any] | None) -> Any:
         """Its value in a row."""
         return self.value(self.tree, row)
 
-    def value(self, node, row):
+    def value(self, node: ast.expr, row: dict[str, Any] | None) -> Any:
         """The value of a part; without a row only its form is looked at."""
         match node:
             case ast.Constant(value=int() | float() as number):
@@ -57,8 +65,8 @@ class Formula:
             case ast.UnaryOp(op=op, operand=operand) if type(op) in OPERATORS:
                 return OPERATORS[type(op)](self.value(operand, row))
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in FUNCTIONS and args:
-                values = [self.value(arg, row) for arg in args]
-                return FUNCTIONS[name](*values) if row else 1.0
+                arguments = [self.value(arg, row) for arg in args]
+                return FUNCTIONS[name](*arguments) if row else 1.0
         raise ValueError(f"{ast.unparse(node)} is no part of a formula")
 
 
@@ -72,7 +80,7 @@ class Expected:
     wanted: str
 
     @classmethod
-    def parse(cls, text):
+    def parse(cls, text: str) -> Any:
         """One argument."""
         name, _, rest = text.rpartition("=")
         if ":" in rest:
@@ -81,7 +89,7 @@ class Expected:
         value, tolerance = map(float, rest.split("~"))
         return cls(name, value - tolerance, value + tolerance, f"should be {value:.10g} within {tolerance:g}")
 
-    def check(self, results, rows, fields, faults):
+    def check(self, results: Path | str, rows: Rows, fields: dict[str, Any], faults: Faults) -> None:
         """The value lies inside."""
         found = value_of(self.name, rows, fields)
         if faults.expect(found is not None, f"{results}: no value {self.name}"):
@@ -97,13 +105,13 @@ class Like:
     tolerance: float
 
     @classmethod
-    def parse(cls, text):
+    def parse(cls, text: str) -> Any:
         """One argument."""
         rest, _, tolerance = text.rpartition("~")
         run, _, name = rest.partition(":")
         return cls(run, name, float(tolerance))
 
-    def check(self, results, rows, others, faults):
+    def check(self, results: Path | str, rows: Rows, others: Callable[[str], Rows], faults: Faults) -> None:
         """The value is that of the other run; `others` reads its rows."""
         pair = [value_of(self.name, run, {}) for run in (rows, others(self.run))]
         if faults.expect(None not in pair, f"{results}: no value {self.name} here or in {self.run}"):
@@ -123,14 +131,14 @@ class Every:
     step: str
 
     @classmethod
-    def parse(cls, text):
+    def parse(cls, text: str) -> Any:
         """One argument."""
         column, _, rest = text.partition("=")
         formula, _, rest = rest.rpartition("~")
         tolerance, _, step = rest.partition("@")
         return cls(column, Formula(formula), float(tolerance), step)
 
-    def check(self, results, rows, faults):
+    def check(self, results: Path | str, rows: Rows, faults: Faults) -> None:
         """The column is what the formula of the other columns says."""
         rows = [row for row in rows if self.step in ("", row["step"])]
         if not faults.expect(rows, f"{results}: no rows of the step {self.step}"):
@@ -153,10 +161,10 @@ class Every:
                 return
 
 
-def argument(form):
+def argument(form: type[Expected] | type[Like] | type[Every]) -> Callable[[str], Any]:
     """The type of an option that has this form."""
 
-    def parse(text):
+    def parse(text: str) -> Any:
         try:
             return form.parse(text)
         except (ValueError, SyntaxError, RecursionError) as fault:
@@ -165,12 +173,13 @@ def argument(form):
     return parse
 
 
-def rows_of(path):
+def rows_of(path: Path) -> Rows:
     """The rows of a history.csv beyond the unloaded state, numbers as numbers."""
-    return Stored(path.parent).history().to_dict("records")[1:]
+    rows = Stored(path.parent).history().to_dict("records")[1:]
+    return [{str(name): value for name, value in row.items()} for row in rows]
 
 
-def value_of(name, rows, fields):
+def value_of(name: str, rows: Rows, fields: dict[str, Any]) -> Any:
     """The VALUE of that name; none if there is no such thing."""
     interface, _, status = name.rpartition("#")
     if interface in fields:
@@ -183,21 +192,21 @@ def value_of(name, rows, fields):
     return rows[-1].get(name) if rows else None
 
 
-def extreme(name, rows):
+def extreme(name: str, rows: Rows) -> Found:
     """max:COLUMN, min:COLUMN"""
     kind, _, column = name.partition(":")
     here = kind in ("max", "min") and bool(rows) and column in rows[0]
     return here, {"max": max, "min": min}[kind](row[column] for row in rows) if here else None
 
 
-def at_the_end(name, rows):
+def at_the_end(name: str, rows: Rows) -> Found:
     """COLUMN@end:STEP"""
     column, at, step = name.partition("@end:")
     last = [row[column] for row in rows if row["step"] == step and column in row]
     return bool(at), last[-1] if last else None
 
 
-def at_a_peak(name, rows):
+def at_a_peak(name: str, rows: Rows) -> Found:
     """COLUMN@max:OTHER"""
     column, at, largest = name.partition("@max:")
     if not at or not rows or not {column, largest} <= rows[0].keys():
@@ -205,14 +214,14 @@ def at_a_peak(name, rows):
     peak = max(range(len(rows)), key=lambda row: rows[row][largest])
     if 0 < peak < len(rows) - 1:
         near = [[rows[row][key] for row in (peak - 1, peak, peak + 1)] for key in (column, largest)]
-        roots = np.polynomial.Polynomial.fit(*near, 2).deriv().roots() if len(set(near[0])) == 3 else []
+        roots: Any = np.polynomial.Polynomial.fit(near[0], near[1], 2).deriv().roots() if len(set(near[0])) == 3 else []
         inside = [root for root in roots if min(near[0]) <= root <= max(near[0])]
         if inside:
             return True, inside[0]
     return True, rows[peak][column]
 
 
-def at_a_passing(name, rows):
+def at_a_passing(name: str, rows: Rows) -> Found:
     """COLUMN@OTHER=x"""
     column, at, condition = name.partition("@")
     other, equals, value = condition.rpartition("=")

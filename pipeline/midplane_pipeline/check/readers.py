@@ -1,14 +1,19 @@
 """A VTU by three readers that know nothing of each other: meshio, VTK and the package midplane."""
 
+from pathlib import Path
+from typing import Any
+
 import meshio
 import numpy as np
 import pyvista
 from midplane.vtu import Vtu
 
+from midplane_pipeline.check.faults import Faults
+
 FIELD_DATA = ["TimeValue", "step", "load_factor", "energy_stored", "energy_dissipated", "energy_released", "work_external"]
 
 
-def read_thrice(path, faults):
+def read_thrice(path: Path, faults: Faults) -> Any:
     """The file as pyvista reads it, after meshio and the reader of the package have agreed; None if it cannot be read."""
     try:
         other = meshio.read(path)
@@ -29,7 +34,7 @@ def read_thrice(path, faults):
     return grid
 
 
-def agree(path, reader, read, grid, faults):
+def agree(path: Path, reader: str, read: tuple[Any, ...], grid: Any, faults: Faults) -> None:
     """Points, corners of cells, their numbers and arrays of another reader are those of VTK."""
     points, corners, sizes, *arrays = read
     faults.expect(np.array_equal(points, grid.points), f"{path}: {reader} and VTK read different points")

@@ -1,6 +1,12 @@
 """The fields of a subdomain: arrays as the README promises them, stresses that belong together."""
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
+from midplane.vtu import Array
+
+from midplane_pipeline.check.faults import Faults
 
 # name -> components
 SUBDOMAIN_POINTS = {"displacement": 3, "stress": 6, "von_mises": 1}
@@ -8,7 +14,7 @@ SUBDOMAIN_CELLS = {"stress": 6, "von_mises": 1, "principal_stress": 3}
 ROUND_OFF = 1e-12  # of the quantity compared
 
 
-def check_arrays(path, place, data, wanted, faults):
+def check_arrays(path: Path, place: str, data: Any, wanted: dict[str, int], faults: Faults) -> bool:
     """Exactly the wanted arrays, each with its components and finite. True if they can be used further."""
     good = faults.expect(
         set(data.keys()) == set(wanted),
@@ -26,7 +32,7 @@ def check_arrays(path, place, data, wanted, faults):
     return good
 
 
-def check_subdomain(path, grid, name, scene, faults):
+def check_subdomain(path: Path, grid: Any, name: str, scene: dict[str, Any], faults: Faults) -> None:
     """Displacements and stresses of a subdomain, and what its scene gives it; the principal stresses belong to the stresses."""
     warms, strains = ({sub for step in scene["steps"] for sub in step.get(key, {})} for key in ("temperature", "strain"))
     points = SUBDOMAIN_POINTS | ({"temperature": 1} if name in warms else {})
@@ -40,7 +46,7 @@ def check_subdomain(path, grid, name, scene, faults):
     first, second, third = grid.cell_data["principal_stress"].T
     size = max(np.abs(grid.cell_data["stress"]).max(), np.finfo(float).tiny)
 
-    def close(a, b):
+    def close(a: Array, b: Array) -> bool:
         return np.abs(a - b).max() <= ROUND_OFF * size
 
     faults.expect((first >= second).all(), f"{path}: principal_stress is not in order s1 >= s2")
@@ -57,6 +63,6 @@ def check_subdomain(path, grid, name, scene, faults):
     )
 
 
-def has_stages(scene):
+def has_stages(scene: dict[str, Any]) -> bool:
     """True if parts come or go."""
     return any(key in step for step in scene["steps"] for key in ("activate", "deactivate"))

@@ -14,6 +14,7 @@ the last increment stored. Meshes are rendered off-screen by VTK (through pyvist
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 from midplane import scene_file
@@ -36,7 +37,7 @@ from .deviation import deviation
 FEW = 4  # interfaces that have pictures of their own without being asked for
 
 
-def parse_exact(text):
+def parse_exact(text: str) -> tuple[str, str, list[float] | None, list[float]]:
     """[INTERFACE.]COMPONENT=VALUE[@FROM:TO], such as t=-1.5@0.6:1.4: interface, component, both ends or None, values."""
     try:
         component, _, rest = text.partition("=")
@@ -51,7 +52,7 @@ def parse_exact(text):
         raise argparse.ArgumentTypeError(message) from None
 
 
-def parse_arguments():
+def parse_arguments() -> argparse.Namespace:
     """The options."""
     parser = argparse.ArgumentParser(
         prog="python -m midplane_pipeline.draw",
@@ -63,7 +64,7 @@ def parse_arguments():
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/compression/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/compression")
     view_options.add_arguments(parser)
-    many = {"action": "append", "default": []}
+    many: dict[str, Any] = {"action": "append", "default": []}
     own = f"traction and coupling of this interface, or of those that fit a pattern; default: all if they are at most {FEW}"
     parser.add_argument("--interface", help=own, metavar="NAME", action="append")
     parser.add_argument("--compare", help="another run, for the tractions", metavar="LABEL=RESULTS", **many)
@@ -77,7 +78,7 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def exact_tractions(arguments, scene, results):
+def exact_tractions(arguments: argparse.Namespace, scene: dict[str, Any], results: Results) -> dict[str, list[Any]]:
     """Exact tractions by interface, those that all of them share in every one: (component, places or None, values)."""
     known = arguments.exact
     if arguments.solution:
@@ -89,7 +90,7 @@ def exact_tractions(arguments, scene, results):
     return {name: [values for interface, *values in known if interface in ("", name)] for name in results.interfaces}
 
 
-def main():
+def main() -> None:
     """The command."""
     arguments = parse_arguments()
     view = view_options.view_of(arguments)
@@ -124,9 +125,9 @@ def main():
             if arguments.within is not None and largest > arguments.within:
                 sys.exit(f"{arguments.results}: that is more than {arguments.within:g}")
     runs = [("", results)]
-    figure = draw_interfaces(runs, title, view)
-    if figure is not None:
-        page.save(figure, results.pictures / "interfaces.png")
+    joints = draw_interfaces(runs, title, view)
+    if joints is not None:
+        page.save(joints, results.pictures / "interfaces.png")
     if not plane.can_render():
         print("no library for off-screen rendering (libosmesa6 or libegl1): pictures of meshes skipped")
         return

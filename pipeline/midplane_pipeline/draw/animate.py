@@ -13,9 +13,11 @@ import argparse
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from midplane import scene_file
 from midplane.pictures import displacement, interfaces, page, plane
@@ -41,7 +43,7 @@ FIELDS = ("displacement", "interfaces")
 class Film:
     """A page of which the pictures change from row to row."""
 
-    def __init__(self, arguments, scene):
+    def __init__(self, arguments: argparse.Namespace, scene: dict[str, Any]) -> None:
         self.view = view_options.view_of(arguments)
         self.every_row = history_rows(arguments.results)
         stored = Results(arguments.results, scene).rows
@@ -52,17 +54,17 @@ class Film:
         self.states = [Results(arguments.results, scene, row) for row in self.rows]
         # parts that come later are shown from then on
         self.states = [state for state in self.states if state.has(self.view)] or self.states
-        self.rows = [state.row for state in self.states]
+        self.rows = [state.row for state in self.states if state.row is not None]
         self.bodies = [list(state.bodies(self.view).values()) for state in self.states]
         self.columns = history_columns(arguments)
-        self.changing = []
+        self.changing: list[Any] = []
         title = scene.get("title") or arguments.results.name
         getattr(self, f"prepare_{arguments.field}")(title)
         self.show = getattr(self, f"show_{arguments.field}")
         if self.columns:
             self.draw_history(arguments.results)
 
-    def page(self, bounds, title, subtitle, keys, bar=0.0):
+    def page(self, bounds: Any, title: str, subtitle: str, keys: list[Any], bar: float = 0.0) -> None:
         """An empty page with room for the history below."""
         below = GRAPH + 0.6 if self.columns else 0.0
         sheet = Page(bounds, title, subtitle, bar=bar, captions=(" ",), below=below, cut=self.view.zoom is not None)
@@ -70,7 +72,7 @@ class Film:
         sheet.label(self.view.length)
         self.sheet, self.keys = sheet, keys
 
-    def prepare_displacement(self, title):
+    def prepare_displacement(self, title: str) -> None:
         """Scale, heading and outlines of the deformed mesh."""
         every = [mesh for meshes in self.bodies for mesh in meshes]
         self.scale = displacement.scale_of(every, self.view)
@@ -81,7 +83,7 @@ class Film:
         self.sheet.colour_bar(self.scale.levels, self.scale.colours, f"displacement [{self.scale.label}]")
         displacement.draw_outlines(self.sheet.axis, self.bodies[-1])
 
-    def show_displacement(self, state, meshes):
+    def show_displacement(self, state: Results, meshes: list[Any]) -> None:
         """The deformed mesh of a row and its interfaces."""
         moved = [displacement.deformed(mesh, self.scale) for mesh in meshes]
         self.changing.append(displacement.draw_deformed(self.sheet, self.sheet.axis, moved, self.scale))
@@ -90,7 +92,7 @@ class Film:
             if "displacement" in points.array_names:  # results of older programs have none
                 self.changing += moved_line(self.sheet.axis, points, self.scale.factor)
 
-    def prepare_interfaces(self, title):
+    def prepare_interfaces(self, title: str) -> None:
         """Scale and heading of the interfaces."""
         every = [mesh for meshes in self.bodies for mesh in meshes]
         bounds = self.view.zoom or plane.frame(every, margin=0.1)
@@ -103,7 +105,7 @@ class Film:
         self.page(bounds, title, subtitle, self.status_keys())
         self.courses = {name: interfaces.course(self.states[0].midplane(name)) for name in set().union(*names)}
 
-    def show_interfaces(self, state, meshes):
+    def show_interfaces(self, state: Results, meshes: list[Any]) -> None:
         """The interfaces of a row."""
         axis = self.sheet.axis
         self.changing.append(self.sheet.render(meshes, None, axis, color=FACE))
@@ -113,13 +115,13 @@ class Film:
             fields, courses = [state.interfaces[name] for name in names], [self.courses[name] for name in names]
             self.changing += interfaces.draw_status(axis, fields, courses, self.factor, self.sheet.inch)
 
-    def status_keys(self):
+    def status_keys(self) -> list[Any]:
         """An entry for whatever an interface does in a row that is shown."""
         fields = [state.interfaces[name]["status"] for state in self.states for name in state.joined(self.view)]
-        seen = np.unique(np.concatenate(fields)) if fields else []
+        seen: Any = np.unique(np.concatenate(fields)) if fields else []
         return [sign(text, colour, linewidth=1.2 if kind == 0 else 3) for kind, (text, colour) in STATUS.items() if kind in seen]
 
-    def draw_history(self, folder):
+    def draw_history(self, folder: Path) -> None:
         """The whole curve pale; what has been gone through comes over it."""
         run = read_columns(folder, [name for name, _ in self.columns])
         axis = self.sheet.place(page.LEFT, page.BOTTOM, self.sheet.size[0] - page.LEFT - page.RIGHT, GRAPH)
@@ -127,7 +129,7 @@ class Film:
         axis.lines[0].set(color=PALE, markersize=0, zorder=1)
         self.run, self.axis = run, axis
 
-    def frame(self, number):
+    def frame(self, number: int) -> Image.Image:
         """The image of a row."""
         while self.changing:
             self.changing.pop().remove()
@@ -146,7 +148,7 @@ class Film:
         return image.crop((0, 0, image.width // 2 * 2, image.height // 2 * 2))  # as films want it
 
 
-def moved_line(axis, points, factor):
+def moved_line(axis: Axes, points: Any, factor: float) -> list[Any]:
     """An interface where its sides have moved to, in pieces coloured by status."""
     places = points.points[:, :2] + factor * points["displacement"][:, :2]
     middle = 0.5 * (places[1:] + places[:-1])
@@ -154,17 +156,17 @@ def moved_line(axis, points, factor):
     pieces, status = np.stack([bounds[:-1], bounds[1:]], axis=1), points["status"]
     drawn = []
     for kind, (_, colour) in STATUS.items():
-        look = {"colors": colour, "linewidths": 1.0 if kind == 0 else 2.4, "zorder": 3 if kind == 0 else 4}
+        look: dict[str, Any] = {"colors": colour, "linewidths": 1.0 if kind == 0 else 2.4, "zorder": 3 if kind == 0 else 4}
         drawn.append(axis.add_collection(LineCollection(pieces[status == kind], **look), autolim=False))
     return drawn
 
 
-def history_rows(folder):
+def history_rows(folder: Path) -> list[dict[str, str]]:
     """The rows of history.csv as text."""
     return text_rows(folder / "history.csv")
 
 
-def history_columns(arguments):
+def history_columns(arguments: argparse.Namespace) -> Any:
     """(name, label) of the abscissa and of the ordinate: those asked for, else those of the scene; None if there are none."""
     if arguments.x and arguments.y:
         return arguments.x, arguments.y
@@ -175,7 +177,7 @@ def history_columns(arguments):
     return known.x, known.y
 
 
-def write_gif(images, path, seconds):
+def write_gif(images: list[Image.Image], path: Path, seconds: float) -> None:
     """All frames with the colours of the last one."""
     palette = images[-1].quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
     frames = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
@@ -183,7 +185,7 @@ def write_gif(images, path, seconds):
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=times, loop=0, optimize=False)
 
 
-def write_mp4(images, path, seconds):
+def write_mp4(images: list[Image.Image], path: Path, seconds: float) -> None:
     """The frames through ffmpeg."""
     width, height = images[0].size
     raw = f"-f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {1 / seconds:.6g} -i - -an".split()
@@ -193,7 +195,7 @@ def write_mp4(images, path, seconds):
     subprocess.run(command, input=b"".join(image.tobytes() for image in frames), check=True)
 
 
-def positive(text):
+def positive(text: str) -> int:
     """A number of rows."""
     number = int(text)
     if number < 1:
@@ -201,14 +203,14 @@ def positive(text):
     return number
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/masonry/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/masonry")
     parser.add_argument("--field", choices=FIELDS, default=FIELDS[0], help="what is drawn, default: displacement")
     parser.add_argument("--every", type=positive, metavar="N", help=f"every Nth stored row, default: at most {MOST} frames")
-    axis = {"type": history.column, "metavar": "COLUMN=LABEL"}
+    axis: dict[str, Any] = {"type": history.column, "metavar": "COLUMN=LABEL"}
     parser.add_argument("--x", help="abscissa of the history, default: that of history.args", **axis)
     parser.add_argument("--y", help="its ordinate", **axis)
     parser.add_argument("--seconds", type=float, default=SECONDS, help=f"how long it runs, about, default: {SECONDS:g}")

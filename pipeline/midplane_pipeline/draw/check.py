@@ -9,6 +9,7 @@ FOLDER is results/<scene>/check; the pictures go there.
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +17,7 @@ from matplotlib.collections import LineCollection
 from midplane.pictures import page, plane
 from midplane.pictures.page import BLUE, FACE, GREEN, INK, MAP, PALE, VERMILLION, sign
 from midplane.pictures.plane import Page
-from midplane.vtu import Vtu
+from midplane.vtu import Array, Vtu
 
 from midplane_pipeline.results.told import told
 
@@ -27,7 +28,7 @@ APART = 0.05  # of the interface's extent: how far each side is moved
 class Joint:
     """The lines and points of one interface by their kind."""
 
-    def __init__(self, path):
+    def __init__(self, path: Path) -> None:
         self.name = path.stem
         grid = Vtu(path).grid()
         kinds, points = grid["kind"], grid.points[:, :2]
@@ -39,29 +40,29 @@ class Joint:
         self.ends = np.concatenate(self.lines[SEGMENT])
         self.extent = np.ptp(self.ends, axis=0).max()
 
-    def normal(self, points):
+    def normal(self, points: Array) -> Array:
         """At points, the normal of the nearest law point."""
         distance = np.linalg.norm(points[:, None] - self.law_points[None], axis=2)
         return self.normals[distance.argmin(axis=1)]
 
-    def moved(self, line, shift):
+    def moved(self, line: Array, shift: float) -> Array:
         """A line moved along the normals."""
         return line + shift * self.normal(line)
 
 
-def draw_joint(joint, meshes, units, folder):
+def draw_joint(joint: Joint, meshes: list[Any], units: str, folder: Path) -> None:
     """Both sides pulled apart along the normals; between them segments, grid and law points."""
     shift = APART * joint.extent
     count = {kind: len(lines) for kind, lines in joint.lines.items()}
     subtitle = f"{count[SEGMENT]} segments, {count[GRID]} cells of the grid, {len(joint.law_points)} law points"
     points = np.concatenate([joint.ends, joint.law_points])
     air = 3 * shift
-    bounds = [(low - air, high + air) for low, high in zip(points.min(axis=0), points.max(axis=0), strict=True)]
-    sheet = Page(bounds, joint.name, subtitle)
+    (x0, y0), (x1, y1) = points.min(axis=0) - air, points.max(axis=0) + air
+    sheet = Page(((x0, x1), (y0, y1)), joint.name, subtitle)
     sheet.label(units)
     sheet.render(meshes, "#DCDCD9", color=FACE)
     axis = sheet.axis
-    feet = {"linewidths": 0.6, "zorder": 3}
+    feet: dict[str, Any] = {"linewidths": 0.6, "zorder": 3}
     for kind, foot, colour, way in ((EDGE_A, FOOT_A, BLUE, -shift), (EDGE_B, FOOT_B, VERMILLION, shift)):
         for joined, alpha in ((True, 1.0), (False, 0.35)):
             numbered = enumerate(joint.lines[kind])
@@ -77,12 +78,12 @@ def draw_joint(joint, meshes, units, folder):
     if len(posts):
         across = 0.35 * shift * joint.normal(posts)
         posts = np.stack([posts - across, posts + across], axis=1)
-        axis.add_collection(LineCollection(posts, colors=INK, linewidths=1.4, zorder=7))
+        axis.add_collection(LineCollection(list(posts), colors=INK, linewidths=1.4, zorder=7))
     axis.plot(*joint.law_points.T, linestyle="", marker="o", markersize=3, color=GREEN, zorder=8)
     arrows = np.stack([joint.law_points, joint.law_points + 0.6 * shift * joint.normals], axis=1)
-    axis.add_collection(LineCollection(arrows, colors=GREEN, linewidths=0.8, zorder=8))
-    post = {"linestyle": "", "marker": "|", "markersize": 9, "markeredgewidth": 1.6}
-    dots = {"marker": "o", "markersize": 3.6}
+    axis.add_collection(LineCollection(list(arrows), colors=GREEN, linewidths=0.8, zorder=8))
+    post: dict[str, Any] = {"linestyle": "", "marker": "|", "markersize": 9, "markeredgewidth": 1.6}
+    dots: dict[str, Any] = {"marker": "o", "markersize": 3.6}
     keys = [
         sign("side A", BLUE, linewidth=1.1, **dots),
         sign("side B", VERMILLION, linewidth=1.1, **dots),
@@ -94,7 +95,7 @@ def draw_joint(joint, meshes, units, folder):
     page.save(sheet.figure, folder / f"{joint.name}.png")
 
 
-def draw_quality(joints, meshes, units, folder):
+def draw_quality(joints: list[Joint], meshes: list[Any], units: str, folder: Path) -> None:
     """The meshes, coloured by the quality of their cells, and the joints."""
     worst = min(mesh["quality"].min() for mesh in meshes)
     levels, colours = np.linspace(0, 1, 11), plt.get_cmap(MAP, 10)
@@ -108,7 +109,7 @@ def draw_quality(joints, meshes, units, folder):
     page.save(sheet.figure, folder / "quality.png")
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="such as results/compression/check")

@@ -25,13 +25,13 @@ from . import view_options
 FIELDS = {"displacement": draw_displacement, "stress": draw_principal_stress, "interfaces": draw_interfaces}
 
 
-def labelled(text):
+def labelled(text: str) -> tuple[str, Path]:
     """[LABEL=]RESULTS, the label by default the name of the folder."""
     label, _, folder = text.rpartition("=")
     return label or Path(folder).name, Path(folder)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/cantilever/scene.json")

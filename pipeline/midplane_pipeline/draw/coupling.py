@@ -1,20 +1,26 @@
 """The picture of how an interface is joined: side A below, side B above, between them segments, grid and law points."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from midplane.pictures import page
-from midplane.pictures.page import BLUE, FACE, GREEN, INK, PALE, VERMILLION, sign
-from midplane.pictures.plane import WIDTH, Page
+from midplane.pictures.page import BLUE, FACE, GREEN, INK, PALE, VERMILLION, WIDTH, sign
+from midplane.pictures.plane import Page
+from midplane.pictures.results import Results, View
+from midplane.vtu import Array
 
 FEW = 60  # segments that one picture of a line can show; a closed one is shown all
 
 
-def draw_coupling(results, name, title, view):
+def draw_coupling(results: Results, name: str, title: str, view: View) -> None:
     """Side A below, side B above, pulled apart; between them segments, grid and law points."""
     midplane = results.midplane(name)
     points, segments, cells, parents = midplane.points, midplane.segments, midplane.cells, midplane.parents
     law_points = results.interfaces[name].points[:, :2]
-    pull = pulling(points[segments], np.ptp(points, axis=0).max())
+    pull = Pull(points[segments], np.ptp(points, axis=0).max())
     lay = (lambda places: places) if pull.closed else lying(points[segments[0, 0]], points[segments[-1, 1]])
     points = lay(points)
     shown = segments if pull.closed else segments[:FEW]
@@ -41,21 +47,21 @@ def draw_coupling(results, name, title, view):
 
     parts = []
     for subdomain, shift in zip(results.sides(name), (-gap / 2, gap / 2), strict=True):
-        mesh = results.subdomains[subdomain].copy()
+        mesh = results.subdomains[str(subdomain)].copy()
         mesh.points[:, :2] = pull(lay(mesh.points[:, :2]), shift)
         parts.append(mesh)
     sheet.render(parts, "#9A9A97", color=FACE)
-    nodes = {"marker": "o", "markersize": 3.6, "linestyle": "--", "linewidth": 0.7}
+    nodes: dict[str, Any] = {"marker": "o", "markersize": 3.6, "linestyle": "--", "linewidth": 0.7}
     for column, colour, shift in ((0, BLUE, -gap / 2), (1, VERMILLION, gap / 2)):
         for foot in points[ends_of_edges(segments, parents[:, column])]:
             line = np.array([foot, pull(foot, shift)]).T
             sheet.axis.plot(*line, color=colour, markevery=[1], zorder=3, **nodes)
     draw_midplane(sheet.axis, points, segments, cells, 0.06 * gap)
-    dots = {"linestyle": "", "marker": "o", "markeredgecolor": "white", "markeredgewidth": 0.5}
+    dots: dict[str, Any] = {"linestyle": "", "marker": "o", "markeredgecolor": "white", "markeredgewidth": 0.5}
     size = np.clip(40 * WIDTH / len(law_points), 2.2, 4.2)
     sheet.axis.plot(*lay(law_points).T, color=GREEN, markersize=size, zorder=7, **dots)
 
-    post = {"linestyle": "", "marker": "|", "markersize": 9, "markeredgewidth": 1.6}
+    post: dict[str, Any] = {"linestyle": "", "marker": "|", "markersize": 9, "markeredgewidth": 1.6}
     keys = [
         sign("nodes of B", VERMILLION, **nodes),
         sign("nodes of A", BLUE, **nodes),
@@ -67,41 +73,41 @@ def draw_coupling(results, name, title, view):
     page.save(sheet.figure, results.pictures / f"coupling_{name}.png")
 
 
-def lying(start, end):
+def lying(start: Array, end: Array) -> Callable[[Array], Array]:
     """The map that lays a mid-plane from start to end along the first axis."""
     along = (end - start) / np.linalg.norm(end - start)
     rotation = np.array([along, [-along[1], along[0]]])
     return lambda points: (points - start) @ rotation.T
 
 
-def pulling(lines, size):
+class Pull:
     """The map that pulls a side off the mid-plane: straight up, or out of the middle where it is closed."""
-    starts = lines[:, 0]
-    closed = np.linalg.norm(lines[-1, 1] - lines[0, 0]) < 1e-6 * size
-    centre = starts.mean(axis=0)
-    x, y = (starts - centre).T
-    outward = -np.sign(x @ np.roll(y, -1) - y @ np.roll(x, -1))  # n is on the left of C
 
-    def pull(points, shift):
-        if not closed:
-            return (*points, 0, shift)
-        return centre + (points - centre) * (1 + outward * shift / (0.5 * pull.size))
+    def __init__(self, lines: Array, size: float) -> None:
+        starts = lines[:, 0]
+        self.closed = bool(np.linalg.norm(lines[-1, 1] - lines[0, 0]) < 1e-6 * size)
+        self.centre, self.size = starts.mean(axis=0), size
+        x, y = (starts - self.centre).T
+        self.outward = -np.sign(x @ np.roll(y, -1) - y @ np.roll(x, -1))  # n is on the left of C
 
-    pull.closed, pull.size = closed, size
-    return pull
+    def __call__(self, points: Array, shift: float) -> Array:
+        """Points of a side, pulled by a shift."""
+        if not self.closed:
+            return np.add(points, (0, shift))
+        return self.centre + (points - self.centre) * (1 + self.outward * shift / (0.5 * self.size))
 
 
-def ends_of_edges(segments, parents):
+def ends_of_edges(segments: Array, parents: Array) -> Array:
     """Points where the nodes of a side meet the mid-plane: there the parent edge changes."""
     change = np.flatnonzero(np.diff(parents)) + 1
     return np.concatenate([segments[[0], 0], segments[change, 0], segments[[-1], 1]])
 
 
-def draw_midplane(axis, points, segments, cells, half):
+def draw_midplane(axis: Axes, points: Array, segments: Array, cells: Array, half: float) -> None:
     """Segments as a bar with white joints, ends of grid cells as posts across it."""
-    axis.add_collection(LineCollection(points[segments], colors=PALE, linewidths=6, zorder=5), autolim=False)
+    axis.add_collection(LineCollection(list(points[segments]), colors=PALE, linewidths=6, zorder=5), autolim=False)
     post = np.array([[0, -half], [0, half]])
     joints = points[segments[1:, :1]] + post
-    axis.add_collection(LineCollection(joints, colors="white", linewidths=1.2, zorder=5), autolim=False)
+    axis.add_collection(LineCollection(list(joints), colors="white", linewidths=1.2, zorder=5), autolim=False)
     posts = points[np.unique(cells)][:, None] + 2 * post
-    axis.add_collection(LineCollection(posts, colors=INK, linewidths=1.6, zorder=6), autolim=False)
+    axis.add_collection(LineCollection(list(posts), colors=INK, linewidths=1.6, zorder=6), autolim=False)

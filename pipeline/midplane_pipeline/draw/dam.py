@@ -7,15 +7,17 @@ included, are compared with statics at every row whose fields are stored.
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 from midplane import scene_file
 from midplane.pictures import page
 from midplane.pictures.page import GREY, INK, RUNS
 from midplane.vtu import Vtu
 
-from midplane_pipeline.results.columns import read
+from midplane_pipeline.results.columns import Columns, read
 from midplane_pipeline.results.told import told
 
 # what the files of the scene are, for the key
@@ -27,20 +29,20 @@ BASE, CREST, HEIGHT = 60.0, 5.0, 80.0  # dam.geo [m]
 WATER, GRAVITY = 9.81e-3, 9.81  # weight of water [MN/m³], acceleration [m/s²]
 
 
-def weight(scene):
+def weight(scene: dict[str, Any]) -> tuple[float, float]:
     """Weight of the dam and its moment about the heel: a rectangle as wide as the crest and a triangle beside it."""
     heavy = GRAVITY * scene["materials"]["concrete"]["density"]
     strip, rest = CREST * HEIGHT, 0.5 * (BASE - CREST) * HEIGHT
     return heavy * (strip + rest), heavy * (strip * 0.5 * CREST + rest * (CREST + (BASE - CREST) / 3))
 
 
-def push(level):
+def push(level: float) -> tuple[float, float]:
     """Force of the water on the upstream face, above the crest too, and its moment about the heel."""
     top = min(level, HEIGHT)
     return WATER * top * (level - 0.5 * top), WATER * top**2 * (0.5 * level - top / 3)
 
 
-def pushes(scene, run):
+def pushes(scene: dict[str, Any], run: Columns) -> list[Any]:
     """The same at every row: by its level, or as a share of the full reservoir where the pressures are stated without load_factor."""
     faces = [step.get("load", {}).get("dam.upstream") for step in scene["steps"]]
     by_level = any("load_factor" in face["pressure"] for face in faces if face)
@@ -48,7 +50,7 @@ def pushes(scene, run):
     return [push(level) if by_level else level / HEIGHT * full for level in run["level"]]
 
 
-def off_statics(scene, folder, run):
+def off_statics(scene: dict[str, Any], folder: Path, run: Columns) -> float:
     """Largest error of normal force, shear force and moment about the heel over the rows stored, of the dam's weight and its moment."""
     own, turned = weight(scene)
     largest, compared = 0.0, 0
@@ -71,7 +73,7 @@ def off_statics(scene, folder, run):
     return largest
 
 
-def slides(scene, uplift):
+def slides(scene: dict[str, Any], uplift: float) -> float:
     """The level at which friction alone no longer holds, the uplift being a share of that of the full pressure everywhere."""
     friction = scene["interfaces"]["base"]["law"]["tan_friction"]
     own, _ = weight(scene)
@@ -80,7 +82,7 @@ def slides(scene, uplift):
     return -b + np.sqrt(b**2 + 2 * friction * own / WATER)
 
 
-def tips(scene):
+def tips(scene: dict[str, Any]) -> float:
     """The level at which a rigid dam tips about its toe, the joint open and full of water."""
     own, turned = weight(scene)
     holds = own * BASE - turned
@@ -89,7 +91,7 @@ def tips(scene):
     return np.interp(holds, loads, levels)
 
 
-def draw(runs, marks, title):
+def draw(runs: list[tuple[str, Columns]], marks: list[tuple[float, str]], title: str) -> Figure:
     """Crack and crest over the level."""
     figure, axes = page.graphs(2, 5.6 + page.KEY)
     for order, (label, run) in enumerate(runs):
@@ -97,12 +99,12 @@ def draw(runs, marks, title):
         start, top = np.flatnonzero(run["normal"] < 0.5 * run["normal"].min())[0], run["level"].argmax()
         rising, all_of_it = slice(start, top + 1), slice(start, None)
         moved = 1e3 * (run["crest"] - run["crest"][start])
-        look = {"color": RUNS[order], "linewidth": 1.2, "zorder": 5 - order}
-        dots = {"marker": "o", "markersize": 2.3}
+        look: dict[str, Any] = {"color": RUNS[order], "linewidth": 1.2, "zorder": 5 - order}
+        dots: dict[str, Any] = {"marker": "o", "markersize": 2.3}
         axes[0].plot(run["level"][rising], run["cracked"][rising], label=label, **look, **dots)
         axes[0].plot(run["level"][rising], run["open"][rising], linestyle=(0, (3, 2)), **look)
         axes[1].plot(run["level"][all_of_it], moved[all_of_it], **look, **dots)
-    diamonds = {"color": INK, "marker": "D", "markersize": 4.5, "linestyle": "none", "zorder": 6}
+    diamonds: dict[str, Any] = {"color": INK, "marker": "D", "markersize": 4.5, "linestyle": "none", "zorder": 6}
     axes[0].plot(*zip(*PUBLISHED, strict=True), label="published", **diamonds)
     axes[0].set(ylabel="length of the crack [m]", ylim=(0, None))
     axes[1].set(ylabel="crest [mm], downstream", xlabel="water level [m], or 80 m × share of the full reservoir", xlim=(0, None))
@@ -112,7 +114,7 @@ def draw(runs, marks, title):
         for level, _ in marks:
             axis.axvline(level, color=GREY, linewidth=0.7, linestyle=(0, (4, 3)), zorder=0)
     for level, text in marks:
-        place = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points", "rotation": 90}
+        place: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points", "rotation": 90}
         look = {"ha": "right", "va": "top", "color": "#555555", "fontsize": 7.5}
         axes[0].annotate(text, (level, 1), (-2, -2), **place, **look)
     page.key_below(figure, axes[0].get_legend_handles_labels()[0])
@@ -121,7 +123,7 @@ def draw(runs, marks, title):
     return figure
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", type=Path, help="the scene file, geo/dam/scene.json")

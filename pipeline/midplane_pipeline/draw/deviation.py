@@ -1,10 +1,11 @@
 """Distance of tractions from exact ones."""
 
 import numpy as np
-from midplane.pictures.traction import distances
+from midplane.pictures.results import Results
+from midplane.pictures.traction import Exact, distances
 
 
-def deviation(results, name, exact):
+def deviation(results: Results, name: str, exact: Exact) -> float:
     """Largest difference from exact tractions at the law points of an interface, over the largest of these."""
     field, largest, size = results.interfaces[name], 0.0, 0.0
     s = distances(results, name)

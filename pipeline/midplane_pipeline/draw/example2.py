@@ -9,21 +9,23 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from midplane.pictures import page
 from midplane.pictures.page import DASHES, GREY, PALE, RUNS, sign
-from midplane.vtu import Vtu
+from midplane.vtu import Array, Vtu
 
-from midplane_pipeline.results.columns import read
+from midplane_pipeline.results.columns import Columns, read
 from midplane_pipeline.results.told import told
 
 PRESSURES = [1, 5, 20]
 MM = 1e-3  # m
 
 
-def run(program, scene, pressure, folder):
+def run(program: str, scene: Path, pressure: float, folder: Path) -> tuple[Columns, float]:
     """The scene at a pressure: its history, and the largest difference of two law points at any time [stress]."""
     setting = f"/steps/0/load/upper.top/pressure={pressure}"
     subprocess.run([program, "run", scene, "-o", folder, "--set", setting, "--quiet"], check=True)
@@ -34,35 +36,35 @@ def run(program, scene, pressure, folder):
     return read(folder), max(np.ptp(field, axis=0).max() for field in fields)
 
 
-def drive(program, scene, path, pressure, folder):
+def drive(program: str, scene: Path, path: Path, pressure: float, folder: Path) -> tuple[Array, Array]:
     """One point of the law along the path, under another pressure: jump and shear stress."""
     program_at = json.loads(path.read_text())
     for segment in program_at["program"]:
         segment["n"].update({end: -pressure for end in ("start", "end") if segment["n"][end]})
     (folder / "path.json").write_text(json.dumps(program_at, indent=2))
-    command = [program, "law", scene, "joint", folder / "path.json", "--tolerance", "1e-8"]
+    command: list[str | Path] = [program, "law", scene, "joint", folder / "path.json", "--tolerance", "1e-8"]
     csv = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     (folder / "point.csv").write_text(csv)
     rows = np.genfromtxt(folder / "point.csv", delimiter=",", names=True)
     return rows["jump_t"], rows["traction_t"]
 
 
-def draw(axis, runs, friction):
+def draw(axis: Axes, runs: list[Any], friction: float) -> None:
     """The runs of one scene: (pressure, history, curve of the point)."""
     for colour, (pressure, history, (jump, stress)) in zip(RUNS, runs, strict=False):
         axis.plot(jump / MM, stress, color=PALE, linewidth=5, solid_capstyle="butt", zorder=1)
-        dots = {"marker": "o", "markersize": 2.6, "linestyle": "none", "clip_on": False, "zorder": 5}
+        dots: dict[str, Any] = {"marker": "o", "markersize": 2.6, "linestyle": "none", "clip_on": False, "zorder": 5}
         axis.plot(history["jump_t"] / MM, history["tau"], color=colour, **dots)
         axis.axhline(friction * pressure, color=GREY, linewidth=0.8, linestyle=DASHES, zorder=2)
         text = f"$\\sigma$ = −{pressure} MPa"
-        place = {"xytext": (0, 7), "textcoords": "offset points", "ha": "right", "color": colour}
+        place: dict[str, Any] = {"xytext": (0, 7), "textcoords": "offset points", "ha": "right", "color": colour}
         axis.annotate(text, (jump[-1] / MM, stress[-1]), **place)
     axis.set(xlim=(0, jump[-1] / MM), xlabel="tangential jump $\\delta_t$ [mm]")
     axis.grid(axis="y")
     axis.xaxis.set_major_formatter("{x:g}")
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", help="midplane")

@@ -7,26 +7,32 @@ between the lowest and the highest, from a CSV with the columns x, low, high in 
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from midplane import scene_file
 from midplane.names import unknown
 from midplane.pictures import labels, page
 from midplane.pictures.page import DASHES, GREY, MARKERS, PALE, RUNS, SOFT
 from midplane.pictures.results import Results
+from midplane.vtu import Array
 
 from midplane_pipeline.exact.solutions import SOLUTIONS
-from midplane_pipeline.results.columns import read_columns, until
+from midplane_pipeline.results.columns import Columns, read_columns, until
 from midplane_pipeline.results.told import told
 
 from . import measured
 
+Pair = tuple[tuple[str, str], tuple[str, str]]  # (name, label) of the abscissa and of the ordinate
+
 LEVELS = [DASHES, (0, (1, 2)), (0, (6, 2, 1, 2))]
 
 
-def deviation(run, solution, x, y):
+def deviation(run: Columns, solution: Any, x: str, y: str) -> float:
     """Largest distance of the run from the exact curve, each way over the largest exact value: the curve may turn back."""
     size = [np.abs(solution.history[name]).max() for name in (x, y)]
     curve = np.column_stack([solution.history[name] for name in (x, y)]) / size
@@ -34,26 +40,33 @@ def deviation(run, solution, x, y):
     start, along = curve[:-1], np.diff(curve, axis=0)
     square = np.maximum((along**2).sum(axis=1), np.finfo(float).tiny)
 
-    def distance(point):
+    def distance(point: Array) -> float:
         foot = np.clip(((point - start) * along).sum(axis=1) / square, 0, 1)
         return np.hypot(*(point - start - foot[:, None] * along).T).min()
 
     return max(distance(point) for point in points)
 
 
-def difference_at_the_end(run, solution, x, y):
+def difference_at_the_end(run: Columns, solution: Any, x: str, y: str) -> float:
     """Relative distance of the last point from the solution at its ordinate."""
     order = np.argsort(solution.history[y])
     exact = np.interp(run[y][-1], solution.history[y][order], solution.history[x][order])
     return abs(run[x][-1] / exact - 1)
 
 
-def ends(values):
+def ends(values: list[Array]) -> tuple[float, float]:
     """From the smallest to the largest, zero within."""
     return min(0.0, *(value.min() for value in values)), max(0.0, *(value.max() for value in values))
 
 
-def draw(axis, runs, solution, columns, levels=(), band=None):
+def draw(
+    axis: Axes,
+    runs: list[tuple[str, Columns]],
+    solution: Any,
+    columns: Pair,
+    levels: Sequence[tuple[float, str]] = (),
+    band: tuple[Path, str] | None | None = None,
+) -> None:
     """The graph: `columns` are (name, label) of the abscissa and of the ordinate, `levels` (value, text), `band` (path, text)."""
     (x, x_label), (y, y_label) = columns
     if solution:
@@ -61,7 +74,7 @@ def draw(axis, runs, solution, columns, levels=(), band=None):
         axis.plot(*exact_curve, color=PALE, linewidth=5, solid_capstyle="butt", label=solution.name, zorder=1)
     for order, (label, run) in enumerate(runs):
         mark = MARKERS[order % len(MARKERS)]
-        look = {"color": RUNS[order % len(RUNS)], "marker": mark, "markersize": 3.0, "zorder": 5 - 0.1 * order}
+        look: dict[str, Any] = {"color": RUNS[order % len(RUNS)], "marker": mark, "markersize": 3.0, "zorder": 5 - 0.1 * order}
         line = "none" if solution and solution.name == "exact" else "-"
         axis.plot(run[x], run[y], linewidth=1.2, linestyle=line, label=label, clip_on=False, **look)
     for style, (value, text) in zip(LEVELS * len(levels), levels, strict=False):
@@ -89,49 +102,49 @@ def draw(axis, runs, solution, columns, levels=(), band=None):
         draw_marks(axis, runs, solution, x, y)
 
 
-def draw_marks(axis, runs, solution, x, y):
+def draw_marks(axis: Axes, runs: list[tuple[str, Columns]], solution: Any, x: str, y: str) -> None:
     """Marks of the exact curve, beside it where there is room."""
     curves = [solution.history, *(run for _, run in runs)]
     taken = np.concatenate([labels.along(labels.in_axes(axis, curve[x], curve[y])) for curve in curves])
     for place, text in solution.marks:
         dot = labels.in_axes(axis, [place[x]], [place[y]])[0]
-        look = {"away": 12, "sides": labels.AROUND, "leader": True, "color": SOFT}
+        look: dict[str, Any] = {"away": 12, "sides": labels.AROUND, "leader": True, "color": SOFT}
         taken = labels.place_label(axis, dot, text, taken, **look)
 
 
-def column(text):
+def column(text: str) -> tuple[str, str]:
     """COLUMN=LABEL"""
     name, _, label = text.partition("=")
     return name, label or name
 
 
-def level(text):
+def level(text: str) -> tuple[float, str]:
     """VALUE=TEXT"""
     value, _, name = text.partition("=")
     return float(value), name
 
 
-def labelled_file(text):
+def labelled_file(text: str) -> tuple[str, str]:
     """FILE=LABEL"""
     name, _, label = text.partition("=")
     return name, label or name
 
 
-def parse(arguments=None):
+def parse(arguments: list[str] | None = None) -> argparse.Namespace:
     """The options; `arguments` in place of those of the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, fromfile_prefix_chars="@")
     parser.add_argument("scene", type=Path, help="the scene file, such as geo/tension/scene.json")
     parser.add_argument("results", type=Path, help="the folder of its results, such as results/tension")
-    axis = {"type": column, "metavar": "COLUMN=LABEL", "required": True}
+    axis: dict[str, Any] = {"type": column, "metavar": "COLUMN=LABEL", "required": True}
     parser.add_argument("--x", help="the abscissa", **axis)
     parser.add_argument("--y", help="the ordinate", **axis)
     parser.add_argument("--until", type=float, metavar="X", help="the last abscissa that is drawn, default: that of the run")
     parser.add_argument("--label", default="midplane", help="name of this run in the key")
-    many = {"action": "append", "default": []}
+    many: dict[str, Any] = {"action": "append", "default": []}
     parser.add_argument("--compare", help="another run", metavar="LABEL=RESULTS", **many)
-    bound = {"help": "a bound of the ordinate", "metavar": "VALUE=TEXT", "type": level}
+    bound: dict[str, Any] = {"help": "a bound of the ordinate", "metavar": "VALUE=TEXT", "type": level}
     parser.add_argument("--level", **bound, **many)
-    values = {"help": "measured values, a CSV in the folder of the scene", "metavar": "FILE=LABEL", "type": labelled_file}
+    values: dict[str, Any] = {"help": "measured values, a CSV in the folder of the scene", "metavar": "FILE=LABEL", "type": labelled_file}
     parser.add_argument("--measured", **values)
     parser.add_argument("--solution", choices=SOLUTIONS, help="exact solution to compare with")
     parser.add_argument("--subtitle", default="", help="what the picture shows")
@@ -140,7 +153,7 @@ def parse(arguments=None):
     return parser.parse_args(arguments)
 
 
-def prepare(arguments, scene):
+def prepare(arguments: argparse.Namespace, scene: dict[str, Any]) -> tuple[list[tuple[str, Columns]], Any, Any, str]:
     """Runs as (label, columns), the solution or None, the band or None, the subtitle; ends where the run is off the solution."""
     names = arguments.x[0], arguments.y[0]
     runs = [(arguments.label, read_columns(arguments.results, names))]
@@ -172,7 +185,7 @@ def prepare(arguments, scene):
     return runs, solution, band, subtitle
 
 
-def main():
+def main() -> None:
     """The command."""
     arguments = parse()
     scene = scene_file.read(arguments.scene)

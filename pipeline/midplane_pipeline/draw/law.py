@@ -10,14 +10,18 @@ of that interface scales the work of the surfaces (1 is G_I spent); without it t
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.figure import Figure
 from midplane import scene_file
 from midplane.names import unknown
 from midplane.pictures import labels, page
 from midplane.pictures.page import DASHES, INK, OPEN, PALE, STATUS, TIED, sign
+from midplane.vtu import Array
 
 from midplane_pipeline.results.told import told
 
@@ -27,13 +31,13 @@ TOGETHER = 0.03  # of a graph: ends of segments that are closer share a label
 WIDTH, HEIGHT = page.LEFT + page.WIDTH + page.RIGHT, 5.6  # of the page [inch]
 
 
-def read(csv):
+def read(csv: str) -> Array:
     """The columns of the CSV by name; empty fields (the elastic law has no strength) are NaN."""
     rows = np.genfromtxt(csv, delimiter=",", names=True, dtype=float)
     return np.atleast_1d(rows)
 
 
-def energy_i(scene, interface):
+def energy_i(scene: str, interface: str) -> float | None:
     """Fracture energy in mode I of an interface of a scene, None where there is none."""
     interfaces = scene_file.read(Path(scene))["interfaces"]
     if interface not in interfaces:
@@ -41,14 +45,14 @@ def energy_i(scene, interface):
     return interfaces[interface]["law"].get("fracture_energy_i")
 
 
-def hyperbola(row, sigma):
+def hyperbola(row: Any, sigma: Array) -> Array:
     """|tau| on the surface of one row: the square root of (c - sigma t)^2 - (c - chi t)^2 for sigma up to chi."""
     chi, c, t = row["tensile_strength"], row["cohesion"], row["tan_friction"]
     inside = t * (chi - sigma) * (2 * c - t * (chi + sigma))
     return np.where(sigma <= chi, np.sqrt(np.maximum(inside, 0)), np.nan)
 
 
-def stages(rows, count):
+def stages(rows: Array, count: int) -> list[int]:
     """Indices of rows that spread evenly over the loss of strength, the first and the last included."""
     strength = rows["tensile_strength"] + rows["cohesion"] + rows["tan_friction"]
     lost = strength[0] - strength
@@ -58,7 +62,7 @@ def stages(rows, count):
     return sorted({int(np.argmin(np.abs(lost - value))) for value in wanted})
 
 
-def trace(axes, x, y, status):
+def trace(axes: Any, x: Array, y: Array, status: Array) -> None:
     """A line through the rows, every piece in the colour of what the point does on the way to its end."""
     for kind, (_, colour) in STATUS.items():
         ends = np.flatnonzero(status[1:] == kind) + 1
@@ -67,9 +71,9 @@ def trace(axes, x, y, status):
             axes.plot(x[way], y[way], color=colour, linewidth=1.9, solid_capstyle="round", zorder=3)
 
 
-def listed(numbers):
+def listed(numbers: list[int]) -> str:
     """0, 3–5"""
-    runs = []
+    runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][-1] + 1:
             runs[-1].append(number)
@@ -78,14 +82,14 @@ def listed(numbers):
     return ", ".join(f"{run[0]}–{run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs)
 
 
-def number_ends(axes, rows, x, y):
+def number_ends(axes: Any, rows: Array, x: Array, y: Array) -> None:
     """Dots at the start and at the ends of the segments, numbered; those at one place share a label."""
     ends = np.flatnonzero(rows["s"] == np.round(rows["s"]))
     path = labels.in_axes(axes, x, y)
-    places = {}
+    places: dict[int, list[int]] = {}
     for number, end in enumerate(ends):
         near = (first for first in places if np.hypot(*(path[end] - path[first])) < TOGETHER)
-        places.setdefault(next(near, end), []).append(number)
+        places.setdefault(next(near, int(end)), []).append(number)
     # a dot is worse than a line
     taken = np.concatenate([labels.along(path), np.repeat(path[list(places)], 50, axis=0)])
     for first, numbers in places.items():
@@ -93,13 +97,13 @@ def number_ends(axes, rows, x, y):
         taken = labels.place_label(axes, path[first], listed(numbers), taken, fontweight="bold")
 
 
-def cross(axes):
+def cross(axes: Any) -> None:
     """The two zero lines."""
     axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
     axes.axvline(0, color=PALE, linewidth=0.7, zorder=0)
 
 
-def draw_stress_plane(axes, rows, work, label, stress):
+def draw_stress_plane(axes: Any, rows: Array, work: Array, label: str, stress: str) -> None:
     """The surfaces at a few stages where they are hyperbolas, and the path."""
     sigma, tau = rows["traction_n"], rows["traction_t"]
     chi = np.nan_to_num(rows["tensile_strength"]).max()
@@ -110,7 +114,7 @@ def draw_stress_plane(axes, rows, work, label, stress):
     axes.set(xlim=(low, high), xlabel=f"normal traction σ [{stress}]")
     axes.set(ylim=(bottom, limit), ylabel=f"shear traction τ [{stress}]")
     cross(axes)
-    if np.isfinite(rows["cohesion"]).all() and "damage" not in rows.dtype.names:
+    if np.isfinite(rows["cohesion"]).all() and not has(rows, "damage"):
         norm = Normalize(0, max(work.max(), 1e-300))
         for k in stages(rows, SURFACES):
             row = rows[k]
@@ -124,7 +128,7 @@ def draw_stress_plane(axes, rows, work, label, stress):
     number_ends(axes, rows, sigma, tau)
 
 
-def draw_curve(axes, rows, component, names, units):
+def draw_curve(axes: Any, rows: Array, component: str, names: tuple[str, str], units: tuple[str, str]) -> None:
     """One traction against its jump."""
     (stress, length), (traction, jump) = units, names
     x = rows[f"jump_{component}"]
@@ -138,17 +142,22 @@ def draw_curve(axes, rows, component, names, units):
     number_ends(axes, rows, x, y)
 
 
-def own(rows, name):
+def has(rows: Array, name: str) -> bool:
+    """True of a column of the CSV."""
+    return name in (rows.dtype.names or ())
+
+
+def own(rows: Array, name: str) -> Array:
     """A variable of the law; zero where it has no such one."""
-    return rows[name] if name in rows.dtype.names else np.zeros(len(rows))
+    return rows[name] if has(rows, name) else np.zeros(len(rows))
 
 
-def gap_of(rows):
+def gap_of(rows: Array) -> Array:
     """r_n - r_n^p: below zero the faces press on each other."""
     return rows["jump_n"] - rows["jump_n_plastic"]
 
 
-def draw_gap(axes, rows, length):
+def draw_gap(axes: Any, rows: Array, length: str) -> None:
     """The gap along the path, and the opening that the law keeps; the numbers are those of the other graphs."""
     gap, opening = gap_of(rows), own(rows, "opening")
     axes.axhline(0, color=PALE, linewidth=0.7, zorder=0)
@@ -162,10 +171,10 @@ def draw_gap(axes, rows, length):
     axes.grid(axis="x")
 
 
-def draw(rows, work, label, units):
+def draw(rows: Array, work: Array, label: str, units: tuple[str, str]) -> tuple[Figure, Axes]:
     """The page: curves, surface and, where the faces part, the gap."""
     parts = np.isin(rows["status"], (OPEN, TIED)).any() and gap_of(rows).max() > 0
-    rooms = [["n", "t"], ["plane", "gap"]] if parts else [["plane", "n"], ["plane", "t"]]
+    rooms: list[Any] = [["n", "t"], ["plane", "gap"]] if parts else [["plane", "n"], ["plane", "t"]]
     figure, axes = plt.subplot_mosaic(rooms, figsize=(WIDTH, HEIGHT))
     left, right = page.LEFT / WIDTH, 1 - page.RIGHT / WIDTH
     bottom, top = page.BOTTOM / HEIGHT, 1 - page.TOP / HEIGHT
@@ -181,7 +190,7 @@ def draw(rows, work, label, units):
     return figure, axes[rooms[0][0]]
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("csv", help="the rows of the path; - reads standard input")
@@ -190,7 +199,7 @@ def main():
     parser.add_argument("-o", "--output", type=Path, help="picture to write (default: the CSV's name with .png)")
     parser.add_argument("--title", default="One point of a law", help="title of the picture")
     parser.add_argument("--subtitle", default="", help="what the picture shows")
-    units = {"nargs": 2, "metavar": ("STRESS", "LENGTH"), "default": ("MPa", "m")}
+    units: dict[str, Any] = {"nargs": 2, "metavar": ("STRESS", "LENGTH"), "default": ("MPa", "m")}
     parser.add_argument("--units", help="what the numbers mean, default: MPa m", **units)
     arguments = parser.parse_args()
     if bool(arguments.scene) != bool(arguments.interface):

@@ -6,8 +6,11 @@ measured: the band ends there and the other bound goes on as a line.
 
 import csv
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from midplane.pictures.page import GREY, PALE
 
 
@@ -20,7 +23,7 @@ class Measured:
     high: np.ndarray
 
 
-def read(path):
+def read(path: Path) -> Measured:
     """The bounds of one file, in order of x."""
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
@@ -31,9 +34,9 @@ def read(path):
     return Measured(**{name: values[order] for name, values in columns.items()})
 
 
-def draw_measured(axis, measured, source):
+def draw_measured(axis: Axes, measured: Measured, source: str) -> None:
     """The band and its bounds beneath the curves, one entry of the key."""
-    look = {"color": PALE, "alpha": 0.55, "linewidth": 0, "zorder": 0.5}
+    look: dict[str, Any] = {"color": PALE, "alpha": 0.55, "linewidth": 0, "zorder": 0.5}
     axis.fill_between(measured.x, measured.low, measured.high, label=f"measured, {source}", **look)
     for bound in (measured.low, measured.high):
         axis.plot(measured.x, bound, color=GREY, linewidth=0.7, zorder=0.6)

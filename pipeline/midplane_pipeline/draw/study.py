@@ -5,7 +5,9 @@ Hover over a point for its settings. What failed stands at the top."""
 import argparse
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
@@ -15,17 +17,19 @@ from plotly.offline import get_plotlyjs
 
 from .page_text import page_text
 
-AGAINST = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}
+Value = Callable[[dict[str, Any]], Any]
+
+AGAINST: dict[str, Value] = {"time [s]": lambda point: point["seconds_median"], "dofs": lambda point: point["counts"].get("dofs")}
 
 
-def ordinate(study, measure):
+def ordinate(study: dict[str, Any], measure: str) -> tuple[str, Value]:
     """A name and a function of a point: its error where there is one, else its value."""
     if any(point["errors"].get(measure) is not None for point in study["points"]):
         return f"error of {measure}", lambda point: point["errors"].get(measure)
     return measure, lambda point: abs(point["values"].get(measure) or 0) or None
 
 
-def setting(point):
+def setting(point: dict[str, Any]) -> str:
     """The axes of a point in words."""
     words = []
     for name, value in point["axes"].items():
@@ -34,13 +38,13 @@ def setting(point):
     return "<br>".join(words) or "the scene as it is"
 
 
-def known(points, of_x, of_y):
+def known(points: list[dict[str, Any]], of_x: Value, of_y: Value) -> list[tuple[float, float, dict[str, Any]]]:
     """Points that have both numbers: (x, y, point)."""
     found = [(of_x(p), of_y(p), p) for p in points if p["status"] == "done"]
     return [(x, y, p) for x, y, p in found if x and y and math.isfinite(y)]
 
 
-def write_page(study, out):
+def write_page(study: dict[str, Any], out: Path) -> None:
     """The page, a figure for time and one for size."""
     parts = [f"<h1>{page_text(study['title'] or study['study'])}</h1>"]
     for k, (title, of_x) in enumerate(AGAINST.items()):
@@ -76,7 +80,7 @@ def write_page(study, out):
     out.write_text(f"{head}<body style='font: 15px sans-serif; max-width: 1000px; margin: 2em auto'>{''.join(parts)}</body>")
 
 
-def picture(study, out):
+def picture(study: dict[str, Any], out: Path) -> None:
     """Every measure against time and against size; failed points on the upper edge."""
     plt.rcParams.update(page.STYLE)
     figure, axes = page.graphs(1, 3.8, columns=len(AGAINST), sharex=False)
@@ -87,7 +91,7 @@ def picture(study, out):
         for order, measure in enumerate(measures):
             name, of_y = ordinate(study, measure)
             rows = known(study["points"], of_x, of_y)
-            look = {"linestyle": "", "marker": MARKERS[order % len(MARKERS)], "markersize": 4, "label": name}
+            look: dict[str, Any] = {"linestyle": "", "marker": MARKERS[order % len(MARKERS)], "markersize": 4, "label": name}
             axis.plot([x for x, _, _ in rows], [y for _, y, _ in rows], color=RUNS[order % len(RUNS)], **look)
         axis.set(xscale="log", yscale="log", xlabel=title)
         axis.grid(True, which="major")
@@ -104,7 +108,7 @@ def picture(study, out):
     page.save(figure, out)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=Path, help="study.json as `midplane study` has written it")

@@ -1,13 +1,14 @@
 """The options of pictures of meshes: units, a part of the plane, some of the parts."""
 
 import argparse
+from typing import Any
 
 from midplane.pictures.results import View
 
 
-def add_arguments(parser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The options that make a View."""
-    units = {"nargs": 2, "metavar": ("STRESS", "LENGTH"), "default": ("MPa", "m")}
+    units: dict[str, Any] = {"nargs": 2, "metavar": ("STRESS", "LENGTH"), "default": ("MPa", "m")}
     parser.add_argument("--units", help="what the numbers mean, default: MPa m", **units)
     zoom = "the part of the plane that the pictures of meshes show"
     parser.add_argument("--zoom", help=zoom, metavar="X0:X1:Y0:Y1", type=parse_zoom)
@@ -15,7 +16,7 @@ def add_arguments(parser):
     parser.add_argument("--subdomain", help=only, metavar="NAME", action="append", dest="subdomains")
 
 
-def parse_zoom(text):
+def parse_zoom(text: str) -> tuple[tuple[float, float], tuple[float, float]]:
     """X0:X1:Y0:Y1 as ((x0, x1), (y0, y1))."""
     try:
         x0, x1, y0, y1 = map(float, text.split(":"))
@@ -26,6 +27,7 @@ def parse_zoom(text):
     return (x0, x1), (y0, y1)
 
 
-def view_of(arguments):
+def view_of(arguments: argparse.Namespace) -> View:
     """The View that the options ask for."""
-    return View(*arguments.units, arguments.zoom, arguments.subdomains or ["*"])
+    stress, length = arguments.units
+    return View(stress, length, arguments.zoom, arguments.subdomains or ["*"])

@@ -4,12 +4,15 @@ Each is a closed form that the plane model must show where its own assumptions, 
 make it one. Where there is only a limit that the model comes close to, the curve bears its name.
 """
 
+from typing import Any
+
 import numpy as np
+from midplane.pictures.results import Results
 
 from .solution import MANY, Exact, sizes
 
 
-def tension(scene, results):
+def tension(scene: dict[str, Any], results: Results) -> Any:
     """u = s (L/E + 1/K_N) - (G_I / chi_0) ln(s / chi_0) once s has reached chi_0: a bar in series with its crack.
 
     Where L is so large that u falls first, the bar snaps back; it turns at s = G_I / (chi_0 (L/E + 1/K_N)).
@@ -20,7 +23,7 @@ def tension(scene, results):
     compliance = length / scene["materials"]["rock"]["young"] + 1 / kn
     end = scene["steps"][-1]["displace"]["upper.top"]["y"]
 
-    def stretch(s):
+    def stretch(s: Any) -> Any:
         return s * compliance - energy / chi * np.log(s / chi)
 
     # where the end has been pulled to: beyond the turning point stretch falls as s grows
@@ -42,7 +45,7 @@ def tension(scene, results):
     return Exact(curve, traction, marks)
 
 
-def dcb(scene, results):
+def dcb(scene: dict[str, Any], results: Results) -> Any:
     """Energy release of two arms on springs: d = C(a) P, and P = sqrt(2 G_I / C'(a)) where the crack a grows.
 
     C(a) = 2 ((b a)^3 + 3 (b a)^2 + 3 b a + 3/2) / (3 E I b^3) + 2 a / (5/6 mu h), b = (k / 4 E I)^(1/4) and
@@ -66,7 +69,7 @@ def dcb(scene, results):
     return Exact(curve, {}, name="limit of a brittle bond")
 
 
-def friction_block(scene, results):
+def friction_block(scene: dict[str, Any], results: Results) -> Any:
     """A rigid block of weight N, pushed by H at a height: p = N/L + 12 H height x / L^3, tau = min(K_T D, mu p).
 
     It slips behind a front at the fraction (1 + xi) / 2 of its length, where K_T D = mu p. Then
@@ -79,10 +82,10 @@ def friction_block(scene, results):
     normal, height = weight["block.top"]["pressure"] * length, tall / 2
     end = push["block.left"]["traction"][0] * tall
 
-    def pressure(force, xi):
+    def pressure(force: Any, xi: Any) -> Any:
         return normal / length + 6 * force * height / length**2 * xi
 
-    def force(xi):
+    def force(xi: Any) -> Any:
         return mu * normal / (1 + 1.5 * mu * height * (1 - xi) ** 2 / length)
 
     xi = np.linspace(-1, 1, MANY)
@@ -100,7 +103,7 @@ def friction_block(scene, results):
     return Exact(curve, traction, [(first, "the heel slips")], [bound])
 
 
-def pull_bar(scene, results):
+def pull_bar(scene: dict[str, Any], results: Results) -> Any:
     """A thin bar on a rigid base, K_T until mu p: shear lag with b = sqrt(K_T / E h) over the length that sticks.
 
     With a length a at the pulled end slipping, F = t0 (tanh(b (L - a)) / b + a), t0 = mu p.

@@ -5,21 +5,25 @@ free end x = 0 (Yuan, Teng, Seracino, Wu and Yao 2004 for stages of it). The sli
 slip of the pulled end rise and fall.
 """
 
-import numpy as np
+from typing import Any
 
-from .solution import MANY, Exact, sizes
+import numpy as np
+from midplane.pictures.results import Results
+from midplane.vtu import Array
+
+from .solution import MANY, Curve, Exact, sizes
 
 
 class Bond:
     """A bar of stiffness E t [force / width] and length L; slips s_1 and s_f, strength τ_f."""
 
-    def __init__(self, rigidity, length, strength, first, last):
+    def __init__(self, rigidity: float, length: float, strength: float, first: float, last: float) -> None:
         self.rigidity, self.length, self.strength = rigidity, length, strength
         self.first, self.last = first, last
         self.rising = np.sqrt(strength / (first * rigidity))  # λ_1
         self.falling = np.sqrt(strength / ((last - first) * rigidity))  # λ_2
 
-    def slip(self, free, x):
+    def slip(self, free: float, x: Array) -> tuple[Array, Array]:
         """Slip and strain at x [array] where the free end has slipped by `free`."""
         rise, fall, drop = self.rising, self.falling, self.last - self.first
         if free < self.first:
@@ -38,13 +42,13 @@ class Bond:
         s, strain = np.where(here, soft, s), np.where(here, steep, strain)
         return s + strain * rest, strain
 
-    def shear(self, s):
+    def shear(self, s: Any) -> Array:
         """Bond stress at a slip."""
         falling = self.strength * (self.last - s) / (self.last - self.first)
         return np.where(s < self.first, self.strength * s / self.first, np.maximum(falling, 0.0))
 
 
-def of_scene(scene, results):
+def of_scene(scene: dict[str, Any], results: Results) -> tuple[Bond, float]:
     """The bond of a scene, and its width."""
     law, step = scene["interfaces"]["bond"]["law"], scene["steps"][-1]
     name = next(group for group in step["displace"]).partition(".")[0]
@@ -55,7 +59,7 @@ def of_scene(scene, results):
     return bond, scene.get("thickness", 1.0)
 
 
-def pull_out(scene, results):
+def pull_out(scene: dict[str, Any], results: Results) -> Any:
     """Force and slip of both ends from the first pull until nothing is bonded; bond stress at the end of the run."""
     bond, width = of_scene(scene, results)
     # far from the pulled end slips are tiny first
@@ -76,7 +80,7 @@ def pull_out(scene, results):
     return Exact(curve, traction_at_the_end(bond, end, s), levels=levels)
 
 
-def traction_at_the_end(bond, end, s):
+def traction_at_the_end(bond: Bond, end: float, s: Array) -> dict[str, Curve]:
     """Bond stress over the length where the pulled end has reached `end` before it turns back; none where the bond is lost."""
     slips = np.geomspace(1e-9 * bond.first, 0.999 * bond.last, MANY)
     pulled = np.array([bond.slip(slip, np.array(bond.length))[0] for slip in slips])

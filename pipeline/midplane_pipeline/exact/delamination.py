@@ -10,30 +10,36 @@ ISO 15024 and ASTM D5528), by 0.42 χ h in mode II. A strength that is finite lo
 """
 
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from midplane import scene_file
+from midplane.vtu import Array
 
 from midplane_pipeline.results.told import told
 
 MANY = 4000
 
+# file, mode, relative slack of peak, stiffness and force, displacements at which forces are known
+FILES = (("scene", "I", (0.02, 0.03, 0.01), (6.5, 6.9)), ("enf", "II", (0.05, 0.03, 0.03), (3.45, 3.6)))
 
-def smeared(scene, layer):
+
+def smeared(scene: dict[str, Any], layer: float) -> tuple[float, float, float]:
     """Stiffness along, across and in shear of layers and the springs between them."""
     young, law = scene["materials"]["layer"]["young"], scene["interfaces"]["lower"]["law"]
     across = 1 / (1 / young + 1 / (layer * law["normal_stiffness"]))
     return young, across, 1 / (2 / young + 1 / (layer * law["tangential_stiffness"]))
 
 
-def correction(along, across, shear):
+def correction(along: float, across: float, shear: float) -> float:
     """χ: by how many heights of an arm the crack is longer."""
     gamma = 1.18 * np.sqrt(along * across) / shear
     return np.sqrt(along / (11 * shear) * (3 - 2 * (gamma / (1 + gamma)) ** 2))
 
 
-def curve(scene, sizes, mode):
+def curve(scene: dict[str, Any], sizes: dict[str, float], mode: str) -> tuple[Array, Array]:
     """Displacement and force as the crack grows; the first is where it begins."""
     height, width = sizes["height"], scene["thickness"]
     along, across, shear = smeared(scene, height / 3)
@@ -51,7 +57,7 @@ def curve(scene, sizes, mode):
     return compliance * force, force
 
 
-def options(scene, sizes, mode, slack, places):
+def options(scene: dict[str, Any], sizes: dict[str, float], mode: str, slack: Sequence[float], places: Sequence[float]) -> Iterator[str]:
     """Options for midplane_pipeline.check: the peak, the first stiffness and forces once the crack grows; `slack` is relative."""
     x, force = curve(scene, sizes, mode)
     yield f"--expect=max:force={(1 - slack[0]) * force[0]:.6g}:{force[0]:.6g}"
@@ -62,13 +68,13 @@ def options(scene, sizes, mode, slack, places):
         yield f"--expect=J_over_G@displacement={place:g}=1~0.005"
 
 
-def main():
+def main() -> None:
     """The command."""
     folder = Path(sys.argv[1])
-    for name, *rest in (("scene", "I", (0.02, 0.03, 0.01), (6.5, 6.9)), ("enf", "II", (0.05, 0.03, 0.03), (3.45, 3.6))):
+    for name, mode, slack, places in FILES:
         scene = scene_file.read(folder / f"{name}.json")
         sizes = scene_file.constants(folder / "arm.geo") | scene["subdomains"]["lower1"]["parameters"]
-        print(f"{folder / name}.json", *options(scene, sizes, *rest), sep="\n")
+        print(f"{folder / name}.json", *options(scene, sizes, mode, slack, places), sep="\n")
 
 
 if __name__ == "__main__":

@@ -1,19 +1,22 @@
 """Exact solutions of cracks in an infinite plane and of Hertz's contact, from the numbers of the scene."""
 
+from typing import Any
+
 import numpy as np
 from midplane.pictures.interfaces import course
+from midplane.pictures.results import Results
 
 from .solution import MANY, Exact, sizes
 
 ENDS = 0.05  # of a crack's length at each end: tractions of the elements at its tips, where stresses are singular, are no values
 
 
-def plane_modulus(material):
+def plane_modulus(material: dict[str, Any]) -> float:
     """E/(1 − ν²)."""
     return material["young"] / (1 - material["poisson"] ** 2)
 
 
-def chord(results, name):
+def chord(results: Results, name: str) -> tuple[float, float, float]:
     """Length of a straight interface, and the cosine and sine of its angle to the x axis."""
     midplane = results.midplane(name)
     along = np.subtract(midplane.end, midplane.start)
@@ -21,7 +24,7 @@ def chord(results, name):
     return length, *(along / length)
 
 
-def inclined_crack(scene, results):
+def inclined_crack(scene: dict[str, Any], results: Results) -> Any:
     """A closed crack under a compression along x: t_n = −σ sin²ψ, t_t = −μ t_n, on all of it but its ends (`ENDS`).
 
     It slips by 4 (1 − ν²)/E σ sinψ (cosψ − μ sinψ) √(b² − s²).
@@ -34,7 +37,7 @@ def inclined_crack(scene, results):
     return Exact({}, {"n": (places, [normal] * 2), "t": (places, [shear] * 2)})
 
 
-def sneddon(scene, results):
+def sneddon(scene: dict[str, Any], results: Results) -> Any:
     """A crack under a pressure p inside: it opens by 4 (1 − ν²) p/E √(b² − s²), in its middle by 4 (1 − ν²) p b/E."""
     pressure = scene["steps"][-1]["load"]["crack"]["pressure"]
     half = chord(results, "crack")[0] / 2
@@ -42,7 +45,7 @@ def sneddon(scene, results):
     return Exact({"opening": np.array([0.0, opening]), "pressure": np.array([0.0, pressure])}, {})
 
 
-def hertz(scene, results):
+def hertz(scene: dict[str, Any], results: Results) -> Any:
     """A disc on a half plane under F per length: p = p₀ √(1 − x²/a²), a² = 4 F R/(π E*), p₀ = 2 F/(π a).
 
     1/E* = (1 − ν²)/E of the disc + (1 − ν²)/E of the block; half of both is in the scene.

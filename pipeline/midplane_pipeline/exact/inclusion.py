@@ -3,13 +3,16 @@
 Airy terms r², r⁴ inside, ln r, r², r⁰, r⁻² outside; traction and jump on the rim give their factors.
 """
 
+from typing import Any
+
 import numpy as np
+from midplane.pictures.results import Results
 from midplane.pictures.traction import distances
 
 from .solution import Exact, sizes
 
 
-def disc(a, ei, nui, em, num, kn, kt, s=0.5, d=0.5):
+def disc(a: float, ei: float, nui: float, em: float, num: float, kn: float, kt: float, s: float = 0.5, d: float = 0.5) -> dict[str, Any]:
     """Harmonics 0 and 2 under σ_x = s + d, σ_y = s − d far away: amplitudes of the traction on the rim, and `u`."""
     mi, mm = ei / (2 * (1 + nui)), em / (2 * (1 + num))
     ki, km = 3 - 4 * nui, 3 - 4 * num
@@ -28,7 +31,7 @@ def disc(a, ei, nui, em, num, kn, kt, s=0.5, d=0.5):
     size = np.abs(matrix).max(1)
     al, be, ga, de = np.linalg.solve(matrix / size[:, None], right / size)
 
-    def u(r, body):
+    def u(r: float, body: str) -> tuple[float, float, float]:
         """Amplitudes: u_r = u0 + u2 cos 2θ, u_θ = v2 sin 2θ."""
         if body == "a":
             q = (r / a) ** 2
@@ -48,7 +51,7 @@ def disc(a, ei, nui, em, num, kn, kt, s=0.5, d=0.5):
     return {"n0": a0, "n2": -2 * al, "t2": 2 * al + 6 * be, "u": u}
 
 
-def inclusion(scene, results):
+def inclusion(scene: dict[str, Any], results: Results) -> Any:
     """A disc in an infinite plate under tension along x: `disc`, with θ from the x axis."""
     entry = scene["interfaces"]["rim"]
     law, (stiff, soft) = entry["law"], (scene["materials"][name] for name in ("stiff", "soft"))

@@ -7,11 +7,15 @@ Radial joints that are stiff and pressed are no more than sections of the ring. 
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from midplane import scene_file
+from midplane.pictures.results import Results
 from midplane.pictures.traction import distances
+from midplane.vtu import Array
 
 from midplane_pipeline.results.told import told
 
@@ -24,17 +28,17 @@ NEAR = {"N": 1e-4, "M": 2e-5, "V": 2e-5, "u": 1e-6}
 class Harmonics:
     """Stress and displacement of a body as rows of matrices over its unknowns, at a radius."""
 
-    def __init__(self, material):
+    def __init__(self, material: dict[str, Any]) -> None:
         young, nu = material["young"], material["poisson"]
         self.mu, self.kappa = young / (2 * (1 + nu)), 3 - 4 * nu
         self.bulk = young / ((1 + nu) * (1 - 2 * nu))  # 2 (λ + μ)
 
-    def even(self, r):
+    def even(self, r: float) -> Array:
         """Harmonic 0, unknowns A r + B/r: σ_rr, σ_θθ, u_r."""
         ring = 2 * self.mu / r**2
         return np.array([[self.bulk, -ring], [self.bulk, ring], [r, 1 / r]])
 
-    def second(self, r):
+    def second(self, r: float) -> Array:
         """Harmonic 2, unknowns of r², r⁴, r⁻², r⁰: σ_rr, σ_θθ, u_r (cos 2θ), σ_rθ, u_θ (sin 2θ)."""
         q, k, m = r**2, self.kappa, 2 * self.mu
         return np.array(
@@ -48,7 +52,7 @@ class Harmonics:
         )
 
 
-def solve(rows, right):
+def solve(rows: Any, right: Any) -> Array:
     """Rows and columns of very different size are scaled first."""
     rows, right = np.array(rows, float), np.array(right, float)
     size = np.abs(rows).max(axis=0)
@@ -59,7 +63,7 @@ def solve(rows, right):
 class Lining:
     """The solution of a scene: `radii` inner, outer and of the far edge, `share` let go before the lining is there."""
 
-    def __init__(self, scene, radii):
+    def __init__(self, scene: dict[str, Any], radii: Sequence[float]) -> None:
         self.inner, self.outer, self.far = radii
         materials, stress = scene["materials"], scene["subdomains"]["ground"]["initial_stress"]
         springs = scene["interfaces"]["back"]["law"]
@@ -74,14 +78,16 @@ class Lining:
         self.dug2 = solve([here[0], here[3], held[2], held[4]], [-self.share * half, self.share * half, 0, 0])
         # lined: tractions of ring and ground are one, and as large as their springs make them; the rest of σ₀ goes
         rest = 1 - self.share
+        lined: dict[str, tuple[Array, Array]] = {}
         kn, kt = springs["normal_stiffness"], springs["tangential_stiffness"]
         for harmonic, normal, shear in (("even", rest * mean, None), ("second", rest * half, -rest * half)):
-            rows, right = [], []
+            rows: list[Array] = []
+            right: list[float] = []
             free, ring = (getattr(self.ring, harmonic)(r) for r in (self.inner, b))
             wall, held = (getattr(self.ground, harmonic)(r) for r in (b, far))
             none = np.zeros(len(free[0]))
 
-            def equation(of_ring, of_ground, value, rows=rows, right=right):
+            def equation(of_ring: Array, of_ground: Array, value: float, rows: Any = rows, right: Any = right) -> None:
                 rows.append(np.concatenate([of_ring, of_ground]))
                 right.append(value)
 
@@ -93,17 +99,17 @@ class Lining:
                 equation(ring[stress] + stiffness * ring[move], -stiffness * wall[move], 0)
                 equation(none, held[move], 0)
             unknowns = solve(rows, right)
-            setattr(self, f"of_ring_{harmonic}", unknowns[: len(none)])
-            setattr(self, f"of_ground_{harmonic}", unknowns[len(none) :])
+            lined[harmonic] = unknowns[: len(none)], unknowns[len(none) :]
+        (self.of_ring_even, self.of_ground_even), (self.of_ring_second, self.of_ground_second) = lined["even"], lined["second"]
 
-    def stress(self, r, angle):
+    def stress(self, r: float, angle: float) -> tuple[float, float, float]:
         """σ_rr, σ_θθ, σ_rθ in the ring."""
         even = self.ring.even(r) @ self.of_ring_even
         second = self.ring.second(r) @ self.of_ring_second
         c, s = np.cos(2 * angle), np.sin(2 * angle)
         return even[0] + second[0] * c, even[1] + second[1] * c, second[3] * s
 
-    def section(self, angle):
+    def section(self, angle: float) -> Array:
         """N, M (positive with tension outside) and V over the thickness."""
         points, weights = np.polynomial.legendre.leggauss(12)
         half, middle = 0.5 * (self.outer - self.inner), 0.5 * (self.outer + self.inner)
@@ -113,7 +119,7 @@ class Lining:
             total += half * weight * np.array([hoop, hoop * half * point, shear])
         return total
 
-    def wall(self, angle, lined=True):
+    def wall(self, angle: float, lined: bool = True) -> float:
         """Radial displacement of the wall, after it is dug or lined and let go."""
         even, second = self.dug0, self.dug2
         if lined:
@@ -122,7 +128,7 @@ class Lining:
         return self.ground.even(self.outer)[2] @ even + amplitude * np.cos(2 * angle)
 
 
-def of_scene(path):
+def of_scene(path: Path) -> tuple[Lining, dict[str, float]]:
     """The solution, and the angle of every joint by the numbers of its two segments."""
     scene = scene_file.read(path)
     segment, ground = (scene_file.constants(path.parent / name) for name in ("segment.geo", "ground.geo"))
@@ -135,7 +141,7 @@ def of_scene(path):
     return solution, joints
 
 
-def lining(scene, results):
+def lining(scene: dict[str, Any], results: Results) -> Any:
     """Tractions of every joint of the lining at its law points, keyed INTERFACE.n and INTERFACE.t."""
     points = results.subdomains["segment1"].points[:, :2]
     radii = np.hypot(*points.T)
@@ -158,7 +164,7 @@ def lining(scene, results):
     return Exact({}, traction)
 
 
-def main():
+def main() -> None:
     """The command."""
     solution, joints = of_scene(Path(sys.argv[1]))
     top, side = np.pi / 2, 0.0

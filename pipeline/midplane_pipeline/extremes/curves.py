@@ -1,6 +1,7 @@
 """Draws the curves of a row."""
 
 from itertools import cycle
+from typing import Any
 
 import matplotlib.pyplot as pyplot
 import numpy as np
@@ -18,7 +19,7 @@ def draw(curve, path):
         y = np.maximum(np.abs(np.asarray(y, float)), FLOOR)
         axis.plot(x, y, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=label)
     if curve.line is not None:
-        look = {"color": page.GREY, "linestyle": page.DASHES, "linewidth": 0.9}
+        look: dict[str, Any] = {"color": page.GREY, "linestyle": page.DASHES, "linewidth": 0.9}
         axis.axhline(curve.line, label=f"limit {curve.line:g}", **look)
     axis.set_yscale("log")
     if all(np.min(x) > 0 for _, x, _ in curve.series):

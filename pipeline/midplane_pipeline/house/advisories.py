@@ -27,7 +27,7 @@ def locked():
 def number(version):
     """A version to compare by: a release is above its candidates."""
     core = re.split(r"[-+]", version)[0].split(".")
-    return (*tuple(int(part) for part in ([*core, "0", "0"])[:3]), 0 if "-" in version else 1)
+    return (*(int(part) for part in [*core, "0", "0"][:3]), 0 if "-" in version else 1)
 
 
 def fits(version, requirement):

@@ -1,19 +1,24 @@
 """Columns of history.csv as arrays."""
 
 import sys
+from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
 from midplane.names import unknown
 from midplane.stored import Stored
+from midplane.vtu import Array
+
+Columns = dict[str, Array]
 
 
-def read(folder):
+def read(folder: Path) -> Columns:
     """The columns of history.csv by name, from the unloaded state on."""
     frame = Stored(folder).history()
-    return {name: frame[name].to_numpy(float) for name in frame if name != "step"}
+    return {str(name): frame[name].to_numpy(float) for name in frame if name != "step"}
 
 
-def read_columns(folder, columns):
+def read_columns(folder: Path, columns: Iterable[str]) -> Columns:
     """The same, once it is known to have the columns that are to be drawn."""
     run = read(folder)
     for name in columns:
@@ -22,7 +27,7 @@ def read_columns(folder, columns):
     return run
 
 
-def until(run, x, last):
+def until(run: Columns, x: str, last: float) -> Columns:
     """The rows before the abscissa passes a value for the first time; there a row between the two."""
     beyond = np.flatnonzero(np.sign(last) * run[x] > abs(last))
     if not len(beyond) or beyond[0] == 0:

@@ -14,6 +14,7 @@ before it is solved:
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from midplane import scene_file
 
@@ -115,7 +116,7 @@ def write_mortar(net, seed, path):
             geo.surface(ends + beside)
             faces[net.face(*beside)].append(geo.line(*beside))
             continue
-        feet = {c: [net.foot(a, c), net.foot(b, c)] if net.faces(c) else [] for c in (start, end)}
+        feet: dict[str, Any] = {c: [net.foot(a, c), net.foot(b, c)] if net.faces(c) else [] for c in (start, end)}
         geo.surface([*ends, *feet[start], net.at[b, start], net.at[b, end], *feet[end][::-1]])
         for pair in filter(None, feet.values()):
             faces[net.face(*pair)].append(geo.line(*pair))

@@ -1,6 +1,7 @@
 """The figures of the trade page: plotly for the page, matplotlib for the PNGs."""
 
 import math
+from typing import Any
 
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
@@ -224,7 +225,7 @@ def draw_front(axis, scene):
     draw(scene["front"], level, color=FRONT, label="front", **front)
     draw(presets, marker="*", markersize=7, color=PRESET, label="presets", zorder=4, **alone)
     for number, row in enumerate(presets):
-        place = {"xytext": (4, -9 if number % 2 else 4), "textcoords": "offset points", "fontsize": 7}
+        place: dict[str, Any] = {"xytext": (4, -9 if number % 2 else 4), "textcoords": "offset points", "fontsize": 7}
         axis.annotate(row["labels"]["accuracy"], (row["time"], shown(row)), **place)
     if failed:
         draw(failed, lambda _: top_of(scene), marker="x", markersize=4, color=FAILED, label="failed", **alone)
