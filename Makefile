@@ -312,7 +312,7 @@ verify: | tools   ## errors and rates against exact solutions, written to docs/V
 lint: generated   ## format, clippy, ruff and mypy, warnings are errors; advisories and licences of what is used
 	cargo fmt --check -p midplane -p midplane-fuzz -p midplane-mutants
 	for folder in pipeline python; do \
-	    (cd $$folder && ../.venv/bin/ruff check . && ../.venv/bin/ruff format --check .) || exit; \
+	    (cd $$folder && ../.venv/bin/ruff check . && ../.venv/bin/ruff format --check . && ../.venv/bin/mypy) || exit; \
 	done
 	$(PIPELINE).house.advisories check
 	$(PIPELINE).house.licences check

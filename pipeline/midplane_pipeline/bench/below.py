@@ -8,7 +8,7 @@ from pathlib import Path
 from .scenes import SIZES, SPRINGS, folder, kept_below, run
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
@@ -21,7 +21,7 @@ def main():
     scene["steps"] = kept_below(scene["steps"])
     for fields in ("every", "last"):
         scene["output"]["fields"] = fields
-        seconds = {}
+        seconds: dict[str, list[float]] = {}
         for name, law in (("springs", SPRINGS), ("cracking", scene["interfaces"]["joint"]["law"])):
             joint = scene["interfaces"]["joint"] | {"law": law}
             text = json.dumps(scene | {"interfaces": {"joint": joint}})

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.places import ROOT
 
@@ -35,16 +36,16 @@ PRICED = {
 }
 
 
-def size(folder):
+def size(folder: Path) -> int:
     """Bytes of the files below a folder."""
     return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
 
 
-def watched(command):
+def watched(command: list[Any]) -> tuple[int, int, float]:
     """Bytes written, and the seconds of the first and the last thousand increments."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     moments, written = [], 0
-    for line in process.stdout:
+    for line in process.stdout or ():
         words = line.split()
         if len(words) >= 6 and "/" in words[1]:
             moments.append(time.monotonic())
@@ -58,7 +59,7 @@ def watched(command):
     return written, len(moments), last / first
 
 
-def bytes_of(pid):
+def bytes_of(pid: int) -> int | None:
     """Bytes that a process has written so far, if it is still there."""
     try:
         lines = Path(f"/proc/{pid}/io").read_text().splitlines()
@@ -67,7 +68,7 @@ def bytes_of(pid):
         return None
 
 
-def processor(command):
+def processor(command: list[Any]) -> float:
     """Processor time of a command that must succeed [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -75,7 +76,7 @@ def processor(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path)
@@ -100,7 +101,7 @@ def main():
         shutil.rmtree(folder)
     print(f"\n{'':<36} {'with / without':>17}")
     for name, (scene, more) in PRICED.items():
-        times = {"60s": [], "never": []}
+        times: dict[str, list[float]] = {"60s": [], "never": []}
         processor([options.program, "mesh", ROOT / "geo" / scene, "-o", options.out / "price", *more])
         for turn in range(options.repeat):
             for often in times if turn % 2 else reversed(times):

@@ -5,32 +5,34 @@ python -m midplane_pipeline.bench.plot results/bench/scenes.csv [results/bench/p
 import argparse
 from collections import defaultdict
 from pathlib import Path
+from typing import Any
 
 import matplotlib.pyplot as plt
+from matplotlib.axes import Axes
 from midplane.pictures import page
 from midplane.pictures.page import BLUE, GREY, ORANGE, VERMILLION, sign
 
-from .table import read
+from .table import Row, read
 
-COLOURS = {"elastic": BLUE, "friction": ORANGE, "cracking": VERMILLION}
-OURS = {"marker": "o", "markersize": 4.5, "linewidth": 1.4}
+COLOURS: dict[str, Any] = {"elastic": BLUE, "friction": ORANGE, "cracking": VERMILLION}
+OURS: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linewidth": 1.4}
 MARKERS = {"NGSolve": "s", "scikit-fem": "^", "GetFEM": "D", "CalculiX": "v"}
-THEIRS = {"linestyle": "--", "markerfacecolor": "none", "markersize": 4.5, "linewidth": 1.0}
-FACTOR = {"linestyle": ":", "linewidth": 1.2, "marker": "."}
+THEIRS: dict[str, Any] = {"linestyle": "--", "markerfacecolor": "none", "markersize": 4.5, "linewidth": 1.0}
+FACTOR: dict[str, Any] = {"linestyle": ":", "linewidth": 1.2, "marker": "."}
 
 
-def curves(rows, y):
+def curves(rows: list[Row], y: str) -> dict[str, list[tuple[int, float]]]:
     """Points (dofs, y) by scene, those without a value left out."""
-    found = defaultdict(list)
+    found: dict[str, list[tuple[int, float]]] = defaultdict(list)
     for row in rows:
         if row[y] not in ("", "0"):
             found[row["scene"]].append((int(row["dofs"]), float(row[y])))
     return {scene: sorted(points) for scene, points in found.items()}
 
 
-def fastest(peers, y):
+def fastest(peers: list[Row], y: str) -> dict[tuple[str, str], dict[int, float]]:
     """The fastest program of every peer by scene, and size: (scene, peer) to {dofs: value}."""
-    found = defaultdict(dict)
+    found: dict[tuple[str, str], dict[int, float]] = defaultdict(dict)
     for row in peers:
         if not row["program"].startswith("midplane") and row[y]:
             by_size, value = found[row["scene"], row["program"].split()[0]], float(row[y])
@@ -38,19 +40,19 @@ def fastest(peers, y):
     return found
 
 
-def draw(axis, rows, peers, y, text):
+def draw(axis: Axes, rows: list[Row], peers: list[Row], y: str, text: str) -> None:
     """One time against dofs: this program, its peers, one factorisation."""
     for scene, points in curves(rows, y).items():
         axis.plot(*zip(*points, strict=True), color=COLOURS[scene], zorder=3, **OURS)
-    for (scene, peer), points in fastest(peers, y).items():
-        axis.plot(*zip(*sorted(points.items()), strict=True), color=COLOURS[scene], marker=MARKERS[peer], **THEIRS)
+    for (scene, peer), by_size in fastest(peers, y).items():
+        axis.plot(*zip(*sorted(by_size.items()), strict=True), color=COLOURS[scene], marker=MARKERS[peer], **THEIRS)
     axis.plot(*zip(*curves(rows, "factor")["elastic"], strict=True), color=GREY, **FACTOR)
     axis.set(xscale="log", yscale="log", xlabel="dofs")
     axis.grid(True, which="major")
     page.caption(axis, text)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", help="the table of bench.scenes")

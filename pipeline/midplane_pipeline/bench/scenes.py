@@ -13,10 +13,13 @@ import shutil
 import subprocess
 import time
 from pathlib import Path
+from typing import Any
 
 from midplane.stored import Stored
 
 from midplane_pipeline.places import ROOT
+
+Row = dict[str, Any]  # a run
 
 SIZES = {"10k": (84, 56), "100k": (268, 178), "400k": (528, 352), "1m": (834, 556)}
 SCENES = ("elastic", "friction", "cracking")
@@ -30,13 +33,13 @@ BENDING = {
 PROBES = {"tip": "upper.right.displacement_y", "traction_t": "joint.traction_t@0.5"}
 
 
-def kept_below(steps):
+def kept_below(steps: list[Any]) -> list[Any]:
     """The steps of the shear box at a hundredth of its load: nothing cracks or slips."""
     displace = {f"upper.{side}": {"x": 1e-9} for side in ("left", "right")}
     return [steps[0] | {"load": {"upper.top": {"pressure": 0.1}}}, steps[1] | {"displace": displace}]
 
 
-def folder(program, size, out):
+def folder(program: Path, size: str, out: Path) -> Path:
     """A folder with the meshes `lower.msh` and `upper.msh` of a size and its scenes."""
     here = out / size
     edges = dict(zip(("lower", "upper"), SIZES[size], strict=True))
@@ -61,7 +64,7 @@ def folder(program, size, out):
     return here
 
 
-def run(program, scene, *options):
+def run(program: Path, scene: Path, *options: str) -> Row:
     """One run: its seconds, those of its stages, its counts and the last row of its history."""
     out = scene.parent / "out"
     shutil.rmtree(out, ignore_errors=True)
@@ -81,7 +84,7 @@ def run(program, scene, *options):
     return row | {stage: spent.get(stage, 0.0) for stage in STAGES}
 
 
-def processor():
+def processor() -> str:
     """The name of the processor."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.exists() else []
@@ -89,7 +92,7 @@ def processor():
     return models[0] if models else platform.processor() or platform.machine()
 
 
-def machine():
+def machine() -> str:
     """The machine, in a line."""
     rustc = subprocess.run(["rustc", "--version"], capture_output=True, text=True).stdout.split()
     load = ", ".join(f"{value:.1f}" for value in os.getloadavg())
@@ -97,7 +100,7 @@ def machine():
     return f"{date}, {processor()}, {os.cpu_count()} cores, load average {load}, rustc {rustc[1] if rustc else '?'}"
 
 
-def write(path, rows, about):
+def write(path: Path, rows: list[Row], about: str) -> None:
     """A CSV file with a comment on where it comes from."""
     rows = [{k: f"{v:.9g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows]
     with open(path, "w", newline="") as file:
@@ -107,7 +110,7 @@ def write(path, rows, about):
         table.writerows(rows)
 
 
-def show(row):
+def show(row: Row) -> None:
     """Prints a row."""
     per = f"{1e3 * row['iteration']:8.2f} ms" if row["iterations"] else " " * 11
     print(
@@ -117,7 +120,7 @@ def show(row):
     )
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
@@ -126,10 +129,10 @@ def main():
     parser.add_argument("--repeat", type=int, default=3, help="runs of each, of which the fastest counts")
     options = parser.parse_args()
     program = options.program.resolve()
-    rows = []
+    rows: list[Row] = []
     for size in options.sizes:
         here = folder(program, size, options.out)
-        fastest = {}
+        fastest: dict[str, Row] = {}
         for _ in range(options.repeat):
             for name in SCENES:
                 row = run(program, here / f"{name}.json")

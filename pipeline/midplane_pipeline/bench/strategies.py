@@ -19,9 +19,9 @@ FORMS = ("condensed", "blocks", "plain")
 SHORT, RESOLVED = 2.0, 0.02
 
 
-def seconds(program, scene, out, form, patience):
+def seconds(program: Path, scene: Path, out: Path, form: str, patience: float | None) -> tuple[float, str]:
     """Seconds of a run, and what it took; infinite where it ends early."""
-    command = [program, "run", "-q", scene, "-o", out, f"--set=solution.strategy={form}", "--set=output.fields=none"]
+    command: list[str | Path] = [program, "run", "-q", scene, "-o", out, f"--set=solution.strategy={form}", "--set=output.fields=none"]
     best, taken = float("inf"), "-"
     for _ in range(3):
         try:
@@ -36,7 +36,7 @@ def seconds(program, scene, out, form, patience):
     return best, taken
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
@@ -49,7 +49,8 @@ def main():
     for size in options.walls:
         folder = options.out / f"wall_{size}"
         folder.mkdir(parents=True, exist_ok=True)
-        wall(*map(int, size.split("x")), folder)
+        rows, columns = map(int, size.split("x"))
+        wall(rows, columns, folder)
         scenes.append((folder.name, folder))
     above = []
     print(f"{'scene':16} {'auto':>9} {'taken':>10} " + " ".join(f"{form:>10}" for form in FORMS) + "  auto / fastest")

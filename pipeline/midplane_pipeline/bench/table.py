@@ -7,28 +7,30 @@ import math
 import sys
 from pathlib import Path
 
+Row = dict[str, str]  # of a table, as text
+
 MARK = "<!-- tables -->"
 NAMES = {"read meshes": "read", "factorisations": "/ factor"}
 
 
-def read(path):
+def read(path: Path | str) -> tuple[str, list[Row]]:
     """The comment of a table and its rows."""
     lines = Path(path).read_text().splitlines()
     return lines[0].removeprefix("# "), list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
-def table(head, rows):
+def table(head: list[str], rows: list[list[str]]) -> str:
     """A Markdown table, numbers to the right."""
     rule = ["---"] + ["---:"] * (len(head) - 1)
     return "\n".join("| " + " | ".join(row) + " |" for row in [head, rule, *rows])
 
 
-def number(text, scale=1.0, digits=3):
+def number(text: str, scale: float = 1.0, digits: int = 3) -> str:
     """A number to so many digits, or nothing."""
     return f"{scale * float(text):.{digits}g}" if text else ""
 
 
-def runs(rows):
+def runs(rows: list[Row]) -> str:
     """Times of whole runs and of their stages."""
     stages = ["read meshes", "bind", "assemble", "order", "factor", "prepare", "solve", "recover", "write"]
     head = ["scene", "dofs", "whole [s]", "/ factor", *(NAMES.get(s, s) for s in stages)]
@@ -52,7 +54,7 @@ def runs(rows):
     return table(head, lines)
 
 
-def growth(rows):
+def growth(rows: list[Row]) -> str:
     """Exponents of seconds over dofs between 100k and the largest size."""
     what = ["seconds", "bind", "assemble", "order", "factor", "prepare", "solve", "write", "iteration"]
     lines = []
@@ -71,7 +73,7 @@ def growth(rows):
     return table(["exponent of", "whole", *what[1:]], lines) if lines else ""
 
 
-def beside(rows):
+def beside(rows: list[Row]) -> str:
     """Times of other programs beside ours."""
     head = ["scene", "program", "threads", "whole [s]", "ratio", "without imports", "ratio", "iterations"]
     head += ["bytes per dof", "answer"]
@@ -95,7 +97,7 @@ def beside(rows):
     return table(head, lines)
 
 
-def main():
+def main() -> None:
     """The command."""
     page, scenes, *peers = map(Path, sys.argv[1:])
     about, rows = read(scenes)

@@ -31,9 +31,19 @@ LAWS = {
 PRESSURE, SHEAR = 0.2, 0.06
 
 
-def wall(rows, columns, folder, mesh=CELLS, law="friction", increments=10, pressure=PRESSURE, shear=SHEAR):
+def wall(
+    rows: int,
+    columns: int,
+    folder: Path,
+    mesh: tuple[int, int] = CELLS,
+    law: str = "friction",
+    increments: int = 10,
+    pressure: float = PRESSURE,
+    shear: float = SHEAR,
+) -> int:
     """A scene of a wall in running bond; half bricks at the ends of every second row. `mesh`: cells along and across a brick."""
-    geo, bricks = ["// " + "bricks with points of their own"], []
+    geo = ["// bricks with points of their own"]
+    bricks: list[tuple[int, int]] = []
     for row in range(rows):
         edges = [LENGTH * k for k in range(columns + 1)]
         if row % 2:
@@ -81,7 +91,7 @@ def wall(rows, columns, folder, mesh=CELLS, law="friction", increments=10, press
     return len(bricks)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")

@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import time
 from pathlib import Path
+from typing import Any
 
 from midplane.stored import Stored, text_rows
 
@@ -29,7 +30,7 @@ FEW = 10
 COLUMNS = ("law", "bricks", "dofs", "increments", "strategy", "iterations", "seconds", "solve", "bytes_per_brick", "push")
 
 
-def run(program, folder, out):
+def run(program: Path, folder: Path, out: Path) -> tuple[float, dict[str, Any]]:
     """Seconds of a whole process that begins with nothing, and its summary."""
     shutil.rmtree(out, ignore_errors=True)
     start = time.perf_counter()
@@ -38,7 +39,7 @@ def run(program, folder, out):
     return seconds, Stored(out).summary()
 
 
-def row_of(options, law, shape, increments, repeat):
+def row_of(options: argparse.Namespace, law: str, shape: tuple[int, int], increments: int, repeat: int) -> dict[str, Any]:
     """A wall's fastest run as a row."""
     folder = options.out / f"{law}_{shape[0]}x{shape[1]}"
     folder.mkdir(parents=True, exist_ok=True)
@@ -46,27 +47,27 @@ def row_of(options, law, shape, increments, repeat):
     seconds, summary = min((run(options.program.resolve(), folder, folder / "out") for _ in range(repeat)), key=lambda r: r[0])
     push = text_rows(folder / "out" / "history.csv")[-1]["push"]
     solution = summary["solution"]
-    row = (law, bricks, summary["sizes"]["dofs"], increments, solution["strategy"], solution["iterations"], round(seconds, 2))
+    row: tuple[Any, ...] = (law, bricks, summary["sizes"]["dofs"], increments, solution["strategy"], solution["iterations"], round(seconds, 2))
     row += (round(summary["time"]["solve"], 2), round(summary["peak_memory_bytes"] / bricks), push)
     print("  ".join(f"{name} {value}" for name, value in zip(COLUMNS, row, strict=True)), flush=True)
     return dict(zip(COLUMNS, row, strict=True))
 
 
-def exponent(rows, what):
+def exponent(rows: list[dict[str, Any]], what: str) -> float:
     """Slope of the logarithms from the smallest wall to the largest."""
     first, last = rows[0], rows[-1]
     return math.log(last[what] / first[what]) / math.log(last["bricks"] / first["bricks"])
 
 
-def peer(python, folder, *how):
+def peer(python: Path, folder: Path, *how: str) -> dict[str, Any]:
     """Answer of the peer for a wall that midplane has meshed."""
     mesh = next((folder / "out" / "mesh").glob("*.msh"))
-    command = [python, "-m", "midplane_pipeline.bench.peers.wall", folder / "scene.json", mesh, *how]
+    command: list[str | Path] = [python, "-m", "midplane_pipeline.bench.peers.wall", folder / "scene.json", mesh, *how]
     environment = os.environ | {"PYTHONPATH": str(PIPELINE)}
     return json.loads(subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.splitlines()[-1])
 
 
-def beside(python, folder, own):
+def beside(python: Path, folder: Path, own: dict[str, Any]) -> None:
     """The peer on a wall with PARDISO to the end, and with SuperLU for a few factorisations: all would take half an hour."""
     told = peer(python, folder, "pardiso")
     apart = abs(told["push"] / float(own["push"]) - 1)
@@ -85,7 +86,7 @@ def beside(python, folder, own):
     )
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)

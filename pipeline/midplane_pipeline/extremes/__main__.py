@@ -14,11 +14,11 @@ from pathlib import Path
 
 from . import report
 from .program import Never, Program
-from .row import Claim, Trial
+from .row import Claim, Function, Trial
 from .rows import ROWS
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.extremes", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("midplane", type=Path, help="the program")
@@ -43,7 +43,7 @@ def main():
     sys.exit(1 if missed else 0)
 
 
-def attempt(number, tried, expected, function, program, quick):
+def attempt(number: str, tried: str, expected: str, function: Function, program: Program, quick: bool) -> report.Entry:
     """Tries one row; whatever breaks it is a finding."""
     trial, start = Trial(program, quick), time.monotonic()
     try:
@@ -55,7 +55,7 @@ def attempt(number, tried, expected, function, program, quick):
     return report.Entry(number, tried, expected, trial, time.monotonic() - start, program.runs)
 
 
-def described(error):
+def described(error: Exception) -> str:
     """An exception and the line of the row it came from."""
     frames = [f for f in traceback.extract_tb(sys.exc_info()[2]) if Path(f.filename).parent.name == "rows"]
     place = f" ({Path(frames[-1].filename).name}:{frames[-1].lineno})" if frames else ""

@@ -6,22 +6,28 @@
 └───┴─────┘   a: every node is held in x, rollers below
 """
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
 
-from .msh import even, rectangle
+from .msh import Mesh, even, rectangle
 from .scenes import scene
 
 HEIGHT = 0.1
 
 
-def blocks(edges=(3, 5), shape="Q4", width=1.0):
+def blocks(edges: tuple[int, int] = (3, 5), shape: str = "Q4", width: float = 1.0) -> dict[str, Mesh]:
     """Bodies a and b."""
     a = rectangle(even(0, width, edges[0]), even(-HEIGHT, 0, 2), shape)
     return {"a": a, "b": rectangle(even(0, width, edges[1]), even(0, HEIGHT, 2), shape)}
 
 
-def sheared(law, pressure, drives, increments=1, young=1e6, solution=None, **joint):
+def sheared(
+    law: dict[str, Any], pressure: float, drives: Iterable[float], increments: int = 1, young: float = 1e6, solution: dict[str, Any] | None = None, **joint: Any
+) -> dict[str, Any]:
     """Pressure first, then b is driven to every displacement of `drives` in turn."""
+    more: dict[str, Any] = {"solution": solution} if solution else {}
     steps = [
         {
             "fix": {"a.bottom": ["y"], "a": ["x"]},
@@ -42,11 +48,13 @@ def sheared(law, pressure, drives, increments=1, young=1e6, solution=None, **joi
                 "jump": "joint.jump_t@0.5",
             },
         },
-        **({"solution": solution} if solution else {}),
+        **more,
     )
 
 
-def pulled(law, end, increments=1, length=1.0, young=1e4, control="load", **more):
+def pulled(
+    law: dict[str, Any], end: float, increments: int = 1, length: float = 1.0, young: float = 1e4, control: str = "load", **more: Any
+) -> tuple[dict[str, Any], dict[str, Mesh]]:
     """A bar of two bodies, ν = 0, its end pulled in y; everything is uniform."""
     step = {
         "increments": increments,
@@ -64,7 +72,7 @@ def pulled(law, end, increments=1, length=1.0, young=1e4, control="load", **more
     return scene(bodies, {"joint": ("a.top", "b.bottom", law)}, [step], output=history, **more), meshes
 
 
-def way(*corners):
+def way(*corners: Any) -> list[dict[str, Any]]:
     """The program of a law point through corners ((n, t), points); n and t are displacements, or ("stress", value)."""
     program, before = [], [("displacement", 0.0), ("displacement", 0.0)]
     for corner, points in corners:
@@ -77,7 +85,7 @@ def way(*corners):
     return program
 
 
-def peak(law, sigma):
+def peak(law: dict[str, Any], sigma: Any) -> Any:
     """Shear strength of the sound cracking law at a normal stress."""
     chi, c, tan = (law[key] for key in ("tensile_strength", "cohesion", "tan_friction"))
     # √((c − σ tan)² − (c − χ tan)²) without cancellation

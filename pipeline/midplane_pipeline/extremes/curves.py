@@ -1,16 +1,19 @@
 """Draws the curves of a row."""
 
 from itertools import cycle
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as pyplot
 import numpy as np
 from midplane.pictures import page
 
+from .row import Curve
+
 FLOOR = 1e-18  # what is exactly zero is drawn here
 
 
-def draw(curve, path):
+def draw(curve: Curve, path: Path) -> None:
     """One graph, both axes logarithmic unless x is not positive."""
     pyplot.rcParams.update(page.STYLE)
     figure, (axis,) = page.graphs(1, 3.6)

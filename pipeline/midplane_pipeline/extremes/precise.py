@@ -8,8 +8,14 @@ program: jumps at the law points for unit displacements of the nodes. Unknowns a
 which is well conditioned at every stiffness k of the springs, as no difference of displacements is multiplied by k.
 """
 
-import numpy as np
+from collections.abc import Callable
+from typing import Any
 
+import numpy as np
+from midplane.vtu import Array
+
+from .msh import Mesh
+from .program import Program
 from .scenes import elastic, number
 
 WIDE = np.longdouble
@@ -19,7 +25,7 @@ ROOT35 = np.sqrt(WIDE(3) / WIDE(5))
 GAUSS_3 = [(-ROOT35, WIDE(5) / 9), (WIDE(0), WIDE(8) / 9), (ROOT35, WIDE(5) / 9)]
 
 
-def stiffness(mesh, e, nu):
+def stiffness(mesh: Mesh, e: Any, nu: Any) -> Array:
     """K of a body in plane strain, dense; T3 and Q4."""
     e, nu = WIDE(e), WIDE(nu)
     factor = e / ((1 + nu) * (1 - 2 * nu))
@@ -45,7 +51,7 @@ def stiffness(mesh, e, nu):
     return k
 
 
-def derivatives(kind):
+def derivatives(kind: str) -> list[tuple[Array, Any]]:
     """∂N/∂(ξ, η) at the points of the rule, with weights."""
     if kind == "T3":
         return [(np.array([[-1, -1], [1, 0], [0, 1]], WIDE), WIDE(1) / 2)]
@@ -58,13 +64,13 @@ def derivatives(kind):
     return rule
 
 
-def in_parts(rule, parts=64):
+def in_parts(rule: list[Any], parts: int = 64) -> list[Any]:
     """A rule on equal parts of the interval."""
     middles = [(2 * WIDE(part) + 1) / parts - 1 for part in range(parts)]
     return [(middle + xi / parts, weight / parts) for middle in middles for xi, weight in rule]
 
 
-def pressed(mesh, group, pressure):
+def pressed(mesh: Mesh, group: str, pressure: Callable[[Any, Any], Any]) -> Array:
     """Nodal forces of a pressure p(x, y) on a curve that the body lies to the left of, exact to the precision of its numbers."""
     f = np.zeros(2 * len(mesh.points), WIDE)
     points = mesh.points.astype(WIDE)
@@ -80,7 +86,7 @@ def pressed(mesh, group, pressure):
     return f
 
 
-def coupling(program, scene, meshes):
+def coupling(program: Program, scene: dict[str, Any], meshes: dict[str, Mesh]) -> tuple[Array, Array]:
     """Jumps at the law points (n, t by point) for unit displacements of every dof, and the weights of the points."""
     bodies = list(meshes)
     zero = {body: {"x": 0.0, "y": 0.0} for body in bodies}
@@ -116,7 +122,9 @@ def coupling(program, scene, meshes):
 class Precise:
     """A scene of two bodies joined by springs of one stiffness in both directions."""
 
-    def __init__(self, program, scene, meshes, materials, force, held):
+    def __init__(
+        self, program: Program, scene: dict[str, Any], meshes: dict[str, Mesh], materials: dict[str, tuple[float, float]], force: Array, held: Array
+    ) -> None:
         self.meshes = meshes
         blocks = [stiffness(meshes[body], *materials[body]) for body in meshes]
         n = sum(len(block) for block in blocks)
@@ -135,7 +143,7 @@ class Precise:
             self.q = self.q @ (1.5 * np.eye(len(gram), dtype=WIDE) - gram / 2)
         self.j, self.w = j.astype(WIDE), weights.astype(WIDE)
 
-    def solve(self, stiffness):
+    def solve(self, stiffness: float) -> tuple[dict[str, Array], Array]:
         """Displacements by body, and tractions (n, t) of the law points."""
         free, q, j = self.free, self.q, self.j[:, self.free]
         n, m = len(free), q.shape[1]
@@ -154,7 +162,7 @@ class Precise:
         return bodies, (q @ (scale * x[n:])).reshape(-1, 2)
 
 
-def eliminate(matrix, right):
+def eliminate(matrix: Array, right: Array) -> Array:
     """Gauss with row pivots, one step of refinement."""
     n = len(matrix)
     lu, order = matrix.copy(), np.arange(n)
@@ -167,7 +175,7 @@ def eliminate(matrix, right):
         below = np.flatnonzero(lu[i + 1 :, i]) + i + 1
         lu[below, i + 1 :] -= lu[below, i, None] * lu[i, i + 1 :]
 
-    def solve(b):
+    def solve(b: Array) -> Array:
         x = (b / size)[order]
         for i in range(n):
             x[i] -= lu[i, :i] @ x[:i]

@@ -1,20 +1,26 @@
 """Cases 9 and 3 beside their solution in extended precision."""
 
-import numpy as np
+from collections.abc import Callable, Iterator
+from typing import Any
 
-from .msh import arc, even, rectangle
+import numpy as np
+from midplane.vtu import Array
+
+from .msh import Mesh, arc, even, rectangle
 from .precise import WIDE, Precise, pressed
+from .program import Run
+from .row import Trial
 from .scenes import elastic, scene
 from .solutions import Strip
 
 
-def case_9(k=1.0, n=(8, 12), rows=(6, 7)):
+def case_9(k: float = 1.0, n: tuple[int, int] = (8, 12), rows: tuple[int, int] = (6, 7)) -> tuple[Strip, dict[str, Mesh]]:
     """Case 5b with one stiffness in both directions, on unmatched T3 meshes."""
     strip = Strip(kn=k, kt=k)
     return strip, strip.meshes(*n, "T3", rows)
 
 
-def case_3(k=1.0):
+def case_3(k: float = 1.0) -> tuple[dict[str, Any], dict[str, Mesh]]:
     """A quarter of two rings, Q4 7:10, under inner pressure and a shear on the outer edge (what a torque gives)."""
     to = arc(np.pi / 2, np.pi / 2)
     meshes = {
@@ -29,7 +35,7 @@ def case_3(k=1.0):
     return text, meshes
 
 
-def held(meshes, supports):
+def held(meshes: dict[str, Mesh], supports: dict[tuple[str, str], list[int]]) -> Array:
     """True for dofs that are held: {(body, group): directions}."""
     first, found = 0, []
     for body, mesh in meshes.items():
@@ -43,12 +49,12 @@ def held(meshes, supports):
     return np.concatenate(found)
 
 
-def nothing_on(mesh):
+def nothing_on(mesh: Mesh) -> Array:
     """No forces on a body."""
     return np.zeros(2 * len(mesh.points), WIDE)
 
 
-def references(t, coupling):
+def references(t: Trial, coupling: str) -> Iterator[tuple[str, float, Callable[[float], dict[str, Any]], dict[str, Mesh], Precise]]:
     """Cases 9 and 3 with their solution in extended precision: name, E/h, scene of a stiffness, meshes, reference."""
     strip, meshes = case_9()
     sides = {(body, side): [0] for body in "ab" for side in ("left", "right")}
@@ -79,7 +85,7 @@ def references(t, coupling):
         held(meshes, {("a", "bottom"): [0, 1]}),
     )
 
-    def ring(k):
+    def ring(k: float) -> dict[str, Any]:
         text = case_3(k)[0]
         text["interfaces"]["joint"]["coupling"] = coupling
         return text
@@ -87,7 +93,7 @@ def references(t, coupling):
     yield "case 3, Q4 7:10", 1e4 / (2 * 1.5 * np.sin(np.pi / 28)), ring, meshes, precise
 
 
-def round_off(run, bodies, traction):
+def round_off(run: Run, bodies: dict[str, Array], traction: Array) -> tuple[float, float]:
     """Relative errors of displacement and traction against the reference."""
     scale = max(float(np.abs(u).max()) for u in bodies.values())
     u = max(float(np.abs(run.displacement(body) - u).max()) for body, u in bodies.items()) / scale

@@ -1,12 +1,15 @@
 """The report of a campaign: a line per row on the terminal, Markdown for the docs, one HTML page with the curves in it."""
 
+from __future__ import annotations
+
 import base64
 from dataclasses import dataclass
+from pathlib import Path
 
 from midplane_pipeline.draw.page_text import page_text
 
 from . import curves
-from .row import Trial
+from .row import Claim, Trial
 
 
 @dataclass
@@ -21,17 +24,18 @@ class Entry:
     runs: int
 
     @property
-    def good(self):
+    def good(self) -> bool:
         """True if there are claims and all of them hold."""
         return bool(self.trial.claims) and all(claim.good for claim in self.trial.claims)
 
-    def closest(self):
+    def closest(self) -> Claim | None:
         """The claim with the least margin: a missed one, else the number nearest to its limit."""
-        missed = [claim for claim in self.trial.claims if not claim.good]
-        measured = [claim for claim in self.trial.claims if claim.margin is not None]
-        return (missed or sorted(measured, key=lambda claim: claim.margin) or self.trial.claims or [None])[0]
+        missed = (claim for claim in self.trial.claims if not claim.good)
+        measured = [(claim.margin, number) for number, claim in enumerate(self.trial.claims) if claim.margin is not None]
+        first = self.trial.claims[min(measured)[1] if measured else 0] if self.trial.claims else None
+        return next(missed, first)
 
-    def margin(self):
+    def margin(self) -> str:
         """Distance from the limit, in words."""
         claim = self.closest()
         if claim is None:
@@ -45,7 +49,7 @@ class Entry:
         return f"{claim.margin:.0f} ×" if claim.margin >= 10 else f"{claim.margin:.1f} ×"
 
 
-def line(entry):
+def line(entry: Entry) -> str:
     """A row on the terminal."""
     good = sum(claim.good for claim in entry.trial.claims)
     text = f"{entry.number:<4} {'as expected' if entry.good else 'MISSED':<12} {good:>4}/{len(entry.trial.claims):<4}"
@@ -56,7 +60,7 @@ def line(entry):
     return text
 
 
-def write(entries, out, docs):
+def write(entries: list[Entry], out: Path, docs: Path | None) -> None:
     """Writes both forms; `docs`, if given, gets the Markdown and the curves."""
     out.mkdir(parents=True, exist_ok=True)
     pictures = {}
@@ -74,7 +78,7 @@ def write(entries, out, docs):
             (docs / "extremes" / name).write_bytes((out / name).read_bytes())
 
 
-def head(entries):
+def head(entries: list[Entry]) -> str:
     """The result in a sentence."""
     missed = [entry.number for entry in entries if not entry.good]
     text = f"{len(entries) - len(missed)} of {len(entries)} rows as expected"
@@ -89,7 +93,7 @@ any call: a panic, NaN in a file after exit code 0, a part of a joint dropped in
 *Margin* is the least of limit over got among a row's numbers; *as said* stands for rows of texts and counts."""
 
 
-def markdown(entries, pictures, folder):
+def markdown(entries: list[Entry], pictures: dict[tuple[str, str], str], folder: str) -> str:
     """The table of all rows, then notes and curves."""
     parts = ["# Extremes", "", INTRODUCTION, "", f"**{head(entries)}**", ""]
     parts += [
@@ -117,7 +121,7 @@ vertical-align: top; overflow-wrap: anywhere } .missed { background: #fdd } img 
 summary { cursor: pointer; padding: .3em; border-bottom: 1px solid #ddd } code { font-size: 13px }"""
 
 
-def page(entries, pictures, out):
+def page(entries: list[Entry], pictures: dict[tuple[str, str], str], out: Path) -> str:
     """Everything in one file: every claim of every row, and the curves."""
     parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>Extremes</title><style>{STYLE}</style>"]
     parts += ["<h1>Extremes</h1>", *(f"<p>{page_text(text)}</p>" for text in INTRODUCTION.split("\n\n"))]

@@ -1,14 +1,16 @@
 """Scenes as dictionaries."""
 
+from typing import Any
+
 import numpy as np
 
 
-def elastic(kn, kt=None):
+def elastic(kn: Any, kt: Any = None) -> dict[str, Any]:
     """Springs."""
     return {"type": "elastic", "normal_stiffness": kn, "tangential_stiffness": kn if kt is None else kt}
 
 
-def coulomb(kn, kt, mu, **more):
+def coulomb(kn: Any, kt: Any, mu: Any, **more: Any) -> dict[str, Any]:
     """Coulomb's law."""
     return {
         "type": "coulomb",
@@ -19,7 +21,7 @@ def coulomb(kn, kt, mu, **more):
     }
 
 
-def cracking(**more):
+def cracking(**more: Any) -> dict[str, Any]:
     """The law of the paper's Example 2, its energies read in N/mm."""
     law = {
         "type": "cracking",
@@ -35,7 +37,7 @@ def cracking(**more):
     return {**law, **more}
 
 
-def cohesive(**more):
+def cohesive(**more: Any) -> dict[str, Any]:
     """A cohesive zone of the strength and the energy of `cracking` in tension."""
     law = {
         "type": "cohesive",
@@ -49,7 +51,7 @@ def cohesive(**more):
     return {**law, **more}
 
 
-def closing(kind, stiffness, maximum, **more):
+def closing(kind: str, stiffness: float, maximum: float, **more: Any) -> dict[str, Any]:
     """An elastic or a Coulomb law with a closure."""
     law = {
         "type": kind,
@@ -59,7 +61,7 @@ def closing(kind, stiffness, maximum, **more):
     return {**law, **({"friction_coefficient": 0.5} if kind == "coulomb" else {}), **more}
 
 
-def scene(materials, joints, steps, plane="strain", **more):
+def scene(materials: dict[str, Any], joints: dict[str, Any], steps: list[dict[str, Any]], plane: str = "strain", **more: Any) -> dict[str, Any]:
     """Bodies by name with (E, ν), joints by name with (side_a, side_b, law) and more keys, steps."""
     interfaces = {}
     for name, (a, b, law, *keys) in joints.items():
@@ -74,12 +76,12 @@ def scene(materials, joints, steps, plane="strain", **more):
     }
 
 
-def number(x):
+def number(x: float) -> str:
     """A number inside a formula, every digit kept."""
     return f"({float(x)!r})"
 
 
-def relative(got, exact, scale=None):
+def relative(got: Any, exact: Any, scale: float | None = None) -> float:
     """Largest error, of the largest exact value."""
     got, exact = np.asarray(got, float), np.asarray(exact, float)
     return np.abs(got - exact).max() / (np.abs(exact).max() if scale is None else scale)

@@ -4,14 +4,17 @@ Side A lies below or inside, side B above or outside; n points from A to B; tens
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from midplane.vtu import Array
 
-from .msh import even, rectangle
+from .msh import Mesh, even, rectangle
+from .program import Run
 from .scenes import elastic, number, scene
 
 
-def lame(e, nu, plane="strain"):
+def lame(e: float, nu: float, plane: str = "strain") -> tuple[float, float]:
     """λ of the plane state and μ."""
     return (e * nu / ((1 + nu) * (1 - 2 * nu)) if plane == "strain" else e * nu / (1 - nu * nu)), e / (2 * (1 + nu))
 
@@ -25,8 +28,8 @@ class Patch:
          └──── A ────┘ −0.5    and B adds (s_nt/K_T, s_nn/K_N)
     """
 
-    e: tuple = (1e4, 4e3)
-    nu: tuple = (0.2, 0.35)
+    e: tuple[float, float] = (1e4, 4e3)
+    nu: tuple[float, float] = (0.2, 0.35)
     snn: float = -6.0
     snt: float = 2.5
     ett: float = 3e-4
@@ -34,11 +37,11 @@ class Patch:
     kt: float = 5e4
     theta: float = 30.0
     size: float = 1.0
-    origin: tuple = (0.0, 0.0)
-    heights: tuple = (0.5, 0.7)
+    origin: tuple[float, float] = (0.0, 0.0)
+    heights: tuple[float, float] = (0.5, 0.7)
     plane: str = "strain"
 
-    def parts(self, side):
+    def parts(self, side: int) -> tuple[float, float, float, float, float]:
         """e_tt, shear strain, slip, e_nn and opening of a side."""
         (lam, mu), b = lame(self.e[side], self.nu[side], self.plane), float(side)
         shear = self.snt / mu
@@ -46,11 +49,11 @@ class Patch:
         slip = self.snt / self.kt if self.kt else 0.0
         return self.ett, shear, b * slip, (self.snn - lam * self.ett) / (lam + 2 * mu), b * opening
 
-    def turn(self):
+    def turn(self) -> tuple[float, float]:
         """Cosine and sine of θ."""
         return np.cos(np.radians(self.theta)), np.sin(np.radians(self.theta))
 
-    def u(self, side, points):
+    def u(self, side: int, points: Array) -> Array:
         """Displacements of a side at points."""
         (cos, sin), (ett, shear, jt, enn, jn) = self.turn(), self.parts(side)
         x, y = (points - np.array(self.origin)).T
@@ -58,7 +61,7 @@ class Patch:
         ut, un = ett * t + shear * n + jt, enn * n + jn
         return np.stack([cos * ut - sin * un, sin * ut + cos * un], -1)
 
-    def formulas(self, side):
+    def formulas(self, side: int) -> list[str]:
         """The same as formulas of x and y."""
         (cos, sin), (ett, shear, jt, enn, jn) = self.turn(), self.parts(side)
         x, y = (f"({name} - {number(at)})" for name, at in zip("xy", self.origin, strict=True))
@@ -68,12 +71,12 @@ class Patch:
         gradient = rotation @ np.array([[ett, shear], [0.0, enn]]) @ rotation.T
         return [f"{number(c[d])} + {number(gradient[d, 0])}*{x} + {number(gradient[d, 1])}*{y}" for d in (0, 1)]
 
-    def meshes(self, s_a, s_b, shape, rows=(3, 4)):
+    def meshes(self, s_a: Any, s_b: Any, shape: str, rows: tuple[int, int] = (3, 4)) -> dict[str, Mesh]:
         """Bodies a and b; s: places along the joint from −0.5 to 0.5, or their number."""
         places = [even(-0.5, 0.5, s) if isinstance(s, int) else np.asarray(s) for s in (s_a, s_b)]
         cos, sin = self.turn()
 
-        def to(s, r):
+        def to(s: Any, r: Any) -> tuple[Any, Any]:
             s, r = self.size * s, self.size * r
             return self.origin[0] + (cos * s - sin * r), self.origin[1] + (sin * s + cos * r)
 
@@ -81,10 +84,10 @@ class Patch:
         a = rectangle(places[0], even(-low, 0, rows[0]), shape, to)
         return {"a": a, "b": rectangle(places[1], even(0, high, rows[1]), shape, to)}
 
-    def scene(self, **joint):
+    def scene(self, **joint: Any) -> dict[str, Any]:
         """The exact displacement on the outer boundary."""
         groups = {0: ("left", "bottom", "right"), 1: ("left", "top", "right")}
-        displace = {}
+        displace: dict[str, Any] = {}
         for side, body in enumerate("ab"):
             x, y = self.formulas(side)
             displace |= {f"{body}.{group}": {"x": x, "y": y} for group in groups[side]}
@@ -95,7 +98,7 @@ class Patch:
             self.plane,
         )
 
-    def sigma(self, side):
+    def sigma(self, side: int) -> Array:
         """Stress as a matrix in x, y."""
         (lam, mu), (cos, sin) = lame(self.e[side], self.nu[side], self.plane), self.turn()
         enn = self.parts(side)[3]
@@ -103,7 +106,7 @@ class Patch:
         rotation = np.array([[cos, -sin], [sin, cos]])
         return rotation @ np.array([[stt, self.snt], [self.snt, self.snn]]) @ rotation.T
 
-    def loaded(self, **joint):
+    def loaded(self, **joint: Any) -> dict[str, Any]:
         """The same under exact tractions, only the bottom held at its exact displacement. Where the joint is stiff, this is
         the scene that has an answer: displacements prescribed on both sides of a joint's end are known to ε u, hence the
         traction there to ε K u."""
@@ -119,7 +122,7 @@ class Patch:
         step["load"] = load
         return text
 
-    def errors(self, run):
+    def errors(self, run: Run) -> tuple[float, float]:
         """Relative errors of displacement and traction."""
         bodies = [(side, run.points(body), run.displacement(body)) for side, body in enumerate("ab")]
         exact = [self.u(side, points) for side, points, _ in bodies]
@@ -136,17 +139,17 @@ class Bending:
     e: float = 1e4
     nu: float = 0.2
     a: float = 0.1
-    heights: tuple = (0.1, 0.15)
+    heights: tuple[float, float] = (0.1, 0.15)
     sm: float = -5.0
     sg: float = 4.0
     kn: float = 1e5
 
-    def coefficients(self, side):
+    def coefficients(self, side: int) -> tuple[float, float, float, float]:
         """Axial strain, curvature, and the joint's rotation and opening of a side."""
         e, k, w = self.sm / self.e, self.sg / (self.a * self.e), side * self.sg / (self.a * self.kn)
         return e, k, w, side * self.sm / self.kn
 
-    def u(self, side, points):
+    def u(self, side: int, points: Array) -> Array:
         """Displacements of a side at points."""
         (e, k, w, jump), (x, y) = self.coefficients(side), points.T
         return np.stack(
@@ -157,15 +160,15 @@ class Bending:
             -1,
         )
 
-    def meshes(self, n_a, n_b, shape, rows=(2, 3)):
+    def meshes(self, n_a: int, n_b: int, shape: str, rows: tuple[int, int] = (2, 3)) -> dict[str, Mesh]:
         """Bodies a and b."""
         low, high = self.heights
         a = rectangle(even(-self.a, self.a, n_a), even(-low, 0, rows[0]), shape)
         return {"a": a, "b": rectangle(even(-self.a, self.a, n_b), even(0, high, rows[1]), shape)}
 
-    def scene(self, **joint):
+    def scene(self, **joint: Any) -> dict[str, Any]:
         """The exact displacement on the outer boundary."""
-        displace = {}
+        displace: dict[str, Any] = {}
         for side, (body, groups) in enumerate({"a": ("left", "bottom", "right"), "b": ("left", "top", "right")}.items()):
             e, k, w, jump = map(number, self.coefficients(side))
             nu = number(self.nu)
@@ -177,7 +180,7 @@ class Bending:
         joints = {"joint": ("a.top", "b.bottom", law, joint)}
         return scene(materials, joints, [{"displace": displace}], "stress")
 
-    def errors(self, run):
+    def errors(self, run: Run) -> tuple[float, float]:
         """Relative errors of displacement and traction."""
         exact = [self.u(side, run.points(body)) for side, body in enumerate("ab")]
         scale = max(np.abs(u).max() for u in exact)
@@ -188,7 +191,7 @@ class Bending:
         return u, t / (abs(self.sm) + abs(self.sg))
 
 
-def exponential(matrix):
+def exponential(matrix: Array) -> Array:
     """exp of a small matrix: Taylor's series after halving, then squares."""
     halvings = max(0, int(np.ceil(np.log2(np.abs(matrix).sum(1).max()))) + 1)
     term = total = np.eye(len(matrix))
@@ -208,9 +211,9 @@ class Strip:
     of bodies and joint per thickness is p₀ |Q_top| L/4.
     """
 
-    e: tuple = (1e4, 4e3)
-    nu: tuple = (0.2, 0.3)
-    h: tuple = (0.8, 0.6)
+    e: tuple[float, float] = (1e4, 4e3)
+    nu: tuple[float, float] = (0.2, 0.3)
+    h: tuple[float, float] = (0.8, 0.6)
     k: float = np.pi
     kn: float = 2e4
     kt: float = 1e4
@@ -218,15 +221,15 @@ class Strip:
     plane: str = "strain"
 
     @property
-    def length(self):
+    def length(self) -> float:
         """Half a wave."""
         return np.pi / self.k
 
-    def solve(self):
+    def solve(self) -> dict[str, float]:
         """Amplitudes: Q on the top, normal and shear traction of the joint."""
         k, layers = self.k, [lame(e, nu, self.plane) for e, nu in zip(self.e, self.nu, strict=True)]
 
-        def system(layer):
+        def system(layer: int) -> Array:
             lam, mu = layers[layer]
             c = lam + 2 * mu
             return np.array(
@@ -238,7 +241,7 @@ class Strip:
                 ]
             )
 
-        def traction(layer):
+        def traction(layer: int) -> Array:
             lam, mu = layers[layer]
             return np.array([[0, -k * mu, mu, 0], [lam * k, 0, 0, lam + 2 * mu]])
 
@@ -254,18 +257,18 @@ class Strip:
         shear, normal = t @ slopes
         return {"q_top": (top @ slopes)[1], "normal": normal, "shear": shear}
 
-    def energy(self):
+    def energy(self) -> float:
         """Strain energy of bodies and joint."""
         return self.p0 * abs(self.solve()["q_top"]) * self.length / 4
 
-    def meshes(self, s_a, s_b, shape, rows):
+    def meshes(self, s_a: Any, s_b: Any, shape: str, rows: tuple[int, int]) -> dict[str, Mesh]:
         """Bodies a and b; s: places along the joint as fractions of the length, or their number."""
         s = [even(0, 1, n) if isinstance(n, int) else np.asarray(n) for n in (s_a, s_b)]
         s = [np.where(x == 1, self.length, x * self.length) for x in s]
         a = rectangle(s[0], even(-self.h[0], 0, rows[0]), shape)
         return {"a": a, "b": rectangle(s[1], even(0, self.h[1], rows[1]), shape)}
 
-    def scene(self, **joint):
+    def scene(self, **joint: Any) -> dict[str, Any]:
         """The strip between its symmetry planes, under the pressure."""
         sides = {f"{body}.{side}": ["x"] for body in "ab" for side in ("left", "right")}
         step = {
@@ -280,7 +283,7 @@ class Strip:
             output={"history": {"stored": "energy.stored"}},
         )
 
-    def errors(self, run):
+    def errors(self, run: Run) -> tuple[float, float]:
         """Relative errors of the stored energy, and of the normal traction in L2."""
         joint, exact = run.joint(), self.solve()
         got, w = joint["traction"][:, 0], joint["length"].ravel()

@@ -18,22 +18,25 @@ from midplane_pipeline.places import ROOT
 COPY = Path(__file__).resolve().parent / "advisories.json"
 
 
-def locked():
+def locked() -> list[tuple[str, str, bool]]:
     """(name, version, whether it comes from elsewhere) of the crates of Cargo.lock."""
     lock = tomllib.loads((ROOT / "Cargo.lock").read_text())
     return [(package["name"], package["version"], "source" in package) for package in lock["package"]]
 
 
-def number(version):
+def number(version: str) -> tuple[int, ...]:
     """A version to compare by: a release is above its candidates."""
     core = re.split(r"[-+]", version)[0].split(".")
     return (*(int(part) for part in [*core, "0", "0"][:3]), 0 if "-" in version else 1)
 
 
-def fits(version, requirement):
+def fits(version: str, requirement: str) -> bool:
     """True if a version fits a requirement such as ">= 1.2.3, < 2" or "^0.8"."""
     for part in requirement.split(","):
-        sign, wanted = re.match(r"\s*([<>=^~]*)\s*([0-9][^\s]*)", part).groups()
+        found = re.match(r"\s*([<>=^~]*)\s*([0-9][^\s]*)", part)
+        if found is None:
+            raise ValueError(f"{requirement} is no requirement")
+        sign, wanted = found.groups()
         have, want = number(version), number(wanted)
         if sign in ("^", "~", ""):
             parts = wanted.split(".")
@@ -46,10 +49,10 @@ def fits(version, requirement):
     return True
 
 
-def renew(clone):
+def renew(clone: str) -> None:
     """Writes the copy from a clone of the list."""
 
-    def git(*arguments):
+    def git(*arguments: str) -> str:
         return subprocess.run(["git", "-C", clone, *arguments], check=True, capture_output=True, text=True).stdout
 
     names = {name for name, _, _ in locked()}
@@ -58,7 +61,7 @@ def renew(clone):
         if path.split("/")[1] not in names:
             continue
         text = git("show", f"HEAD:{path}")
-        front = tomllib.loads(re.search(r"```toml\n(.*?)```", text, re.S).group(1))
+        front = tomllib.loads("".join(re.findall(r"```toml\n(.*?)```", text, re.S)[:1]))
         advisory, versions = front["advisory"], front.get("versions", {})
         if advisory.get("withdrawn"):
             continue
@@ -78,7 +81,7 @@ def renew(clone):
     print(f"{len(found)} advisories of {len(names)} crates, {date}")
 
 
-def check():
+def check() -> None:
     """Ends with 1 where an advisory is open, or one that is settled is none."""
     copy = json.loads(COPY.read_text())
     open_ones = []

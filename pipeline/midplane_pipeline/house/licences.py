@@ -31,7 +31,7 @@ TAKEN = {
 }
 
 
-def crates():
+def crates() -> list[tuple[str, str, str]]:
     """(name, version, licence) of all crates from elsewhere."""
     command = ["cargo", "metadata", "--format-version", "1", "--locked"]
     data = json.loads(subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
@@ -39,7 +39,7 @@ def crates():
     return sorted((package["name"], package["version"], package["license"] or "none") for package in packages)
 
 
-def is_taken(licence):
+def is_taken(licence: str) -> bool:
     """True if an SPDX expression leaves a choice that takes only licences of the list."""
     words = re.split(r"\s+(AND|OR)\s+|([()])", licence.replace("/", " OR "))
     said = [word.strip() for word in words if word and word.strip()]
@@ -47,14 +47,14 @@ def is_taken(licence):
     return bool(python) and eval(" ".join(python), {"__builtins__": {}})  # of True, False, and, or and parentheses only
 
 
-def text(all_of):
+def text(all_of: list[tuple[str, str, str]]) -> str:
     """docs/LICENCES.md."""
     lines = ["# Licences", "", "Of the crates that midplane is built from, written by `python -m midplane_pipeline.house.licences write`.", ""]
     lines += ["| crate | version | licence |", "|---|---|---|"]
     return "\n".join(lines + [f"| {name} | {version} | {licence} |" for name, version, licence in all_of]) + "\n"
 
 
-def main():
+def main() -> None:
     """The command."""
     all_of = crates()
     if sys.argv[1:] == ["write"]:

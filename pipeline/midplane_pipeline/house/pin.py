@@ -13,7 +13,7 @@ from midplane_pipeline.places import PIPELINE
 FILE = PIPELINE / "requirements.txt"
 
 
-def hashes(name, version):
+def hashes(name: str, version: str) -> list[str]:
     """SHA-256 of the files of a version, from the index that pip reads."""
     plain = re.sub(r"[-_.]+", "-", name).lower()
     with urllib.request.urlopen(f"https://pypi.org/simple/{plain}/", timeout=60) as page:
@@ -23,7 +23,7 @@ def hashes(name, version):
     return sorted({digest for digest, file in links if own.match(file)})
 
 
-def main():
+def main() -> None:
     """The command."""
     file = Path(sys.argv[1]) if len(sys.argv) > 1 else FILE
     lines = []

@@ -18,7 +18,7 @@ from pathlib import Path
 JOB = "1"
 
 
-def options(script):
+def options(script: Path) -> dict[str, str]:
     """{name: value} of the lines `#SBATCH --name=value` before the first command."""
     found = {}
     for line in script.read_text().splitlines():
@@ -29,9 +29,9 @@ def options(script):
     return found
 
 
-def task_ids(array):
+def task_ids(array: str) -> list[int]:
     """Numbers of "0-3", "1,4", "0-6:2"; the limit of "0-9%2" is left to --at-once."""
-    ids = []
+    ids: list[int] = []
     for part in array.split("%")[0].split(","):
         ends, _, step = part.partition(":")
         first, _, last = ends.partition("-")
@@ -39,7 +39,7 @@ def task_ids(array):
     return ids
 
 
-def run(task, ids, script, arguments, of):
+def run(task: int, ids: list[int], script: Path, arguments: list[str], of: dict[str, str]) -> int:
     """Runs a task; returns its exit code."""
     environment = {
         "SLURM_JOB_ID": JOB,
@@ -62,7 +62,7 @@ def run(task, ids, script, arguments, of):
         return subprocess.run(command, env=os.environ | environment, stdout=output, stderr=subprocess.STDOUT).returncode
 
 
-def main():
+def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("script", type=Path)

@@ -37,48 +37,48 @@ POINTS = 24
 class Cluster:
     """The study and the folder that it runs in."""
 
-    def __init__(self, program, folder):
+    def __init__(self, program: Path, folder: Path) -> None:
         self.program, self.folder = program, folder
 
-    def call(self, *command):
+    def call(self, *command: object) -> subprocess.CompletedProcess[str]:
         """Runs a command in the folder of the study."""
         environment = os.environ | {"MIDPLANE": str(self.program)}
         return subprocess.run([str(part) for part in command], cwd=self.folder, env=environment, capture_output=True, text=True)
 
-    def done(self, *command):
+    def done(self, *command: object) -> str:
         """The same for one that must succeed; returns what it printed."""
         ended = self.call(*command)
         if ended.returncode != 0:
             sys.exit(f"{' '.join(map(str, command))}\nended with exit code {ended.returncode}\n{ended.stdout}{ended.stderr}")
         return ended.stdout + ended.stderr
 
-    def study(self, out, *more):
+    def study(self, out: str, *more: str) -> str:
         """Runs the study into a folder."""
         return self.done(self.program, "study", "study.json", "-o", out, *more)
 
-    def table(self, out):
+    def table(self, out: str) -> list[dict[str, str]]:
         """Its table without what is measured."""
         rows = text_rows(self.folder / out / "study.csv")
         return [{name: cell for name, cell in row.items() if not is_measured(name)} for row in rows]
 
-    def ages(self, out):
+    def ages(self, out: str) -> dict[str, int]:
         """When its points were written."""
         return {path.name: path.stat().st_mtime_ns for path in (self.folder / out / "points").glob("*.json")}
 
 
-def is_measured(name):
+def is_measured(name: str) -> bool:
     """True of a column that no two runs have alike."""
     return "seconds" in name or name in ("peak_memory_bytes", "reused")
 
 
-def expect(true, what):
+def expect(true: object, what: str) -> None:
     """Tells what holds; ends where it does not."""
     if not true:
         sys.exit(f"failed: {what}")
     print(f"ok      {what}")
 
 
-def slurm(cluster):
+def slurm(cluster: Cluster) -> None:
     """The array without one of its tasks; that task, of which half was lost; the array once more; the table."""
     stand_in = [sys.executable, "-m", "midplane_pipeline.robust.array"]
     submit = [CLUSTER / "study.sbatch", "study.json", "slurm"]
@@ -99,7 +99,7 @@ def slurm(cluster):
     expect(wrong.returncode == 1 and "task 4" in wrong.stderr, "a task beyond the shards fails")
 
 
-def snakemake(cluster, python):
+def snakemake(cluster: Cluster, python: str) -> None:
     """The Snakefile, and once more when nothing is left to do."""
     command = [python, "-m", "snakemake", "-s", CLUSTER / "Snakefile", "--cores", "2", "--config"]
     command += ["study=study.json", "out=snakemake", "shards=3", f"midplane={cluster.program}"]
@@ -107,7 +107,7 @@ def snakemake(cluster, python):
     expect("Nothing to be done" in cluster.done(*command), "the Snakefile has nothing left to do")
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)

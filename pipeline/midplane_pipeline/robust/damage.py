@@ -33,9 +33,9 @@ NUMBERS = ["0", "-1", "1e308", "-1e308", "1e-320", "1e18", "18446744073709551616
 WORDS = ["", " ", "\x1b[2J", "\x00", "\u202e", "a" * 300, "../..", "con", "*", "?", "é", "\ud7ff", '"', "\\", "@0", "~", "lower.top"]
 
 
-def damaged(data, dice):
+def damaged(whole: bytes, dice: random.Random) -> bytes:
     """A copy with one to three faults."""
-    data = bytearray(data)
+    data = bytearray(whole)
     for _ in range(dice.choice([1, 1, 1, 2, 3])):
         size = len(data)
         if not size:
@@ -77,7 +77,7 @@ def damaged(data, dice):
 class Inputs:
     """Inputs to damage: a folder, the file in it, and the arguments that read it."""
 
-    def __init__(self, program, out):
+    def __init__(self, program: Path, out: Path) -> None:
         self.all, self.out = [], out
         for name in SCENES:
             folder = out / "good" / name
@@ -106,13 +106,13 @@ class Inputs:
         self.all += [(folder, "study.json", ["study", "study.json", "--count"])] * 3
 
 
-def limits():
+def limits() -> None:
     """Keeps a process from taking the machine."""
     resource.setrlimit(resource.RLIMIT_AS, (4 * MEMORY, 4 * MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def run(program, inputs, number, seed):
+def run(program: Path, inputs: Inputs, number: int, seed: int) -> tuple[str | None, int | None]:
     """One damaged input: its fault, if there is one, and the time it took."""
     dice = random.Random(f"{seed}/{number}")
     folder, name, arguments = dice.choice(inputs.all)
@@ -157,7 +157,7 @@ def run(program, inputs, number, seed):
     return fault and f"{number}: {folder.name}/{name}: {fault}", code if pid else None
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path)

@@ -20,7 +20,7 @@ ABOUT = {
 EXITS = {"0": "accepted", "2": "refused as bad input", "3": "no equilibrium", "4": "refused by the environment"}
 
 
-def main():
+def main() -> None:
     """The command."""
     damage, fuzz = (json.loads(Path(path).read_text()) for path in sys.argv[1:3])
     lines = ["# Robustness", "", "Written by `make robustness-docs` after `make damage-test` and `make fuzz`.", ""]

@@ -8,6 +8,8 @@ target begins again, and the exit code is 1. `--minimise` puts what the targets 
 tests/fuzz/corpus.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import os
@@ -18,6 +20,7 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from midplane import scene_file
 
@@ -43,7 +46,7 @@ SCENES = {
 MOST_FAULTS = 20
 
 
-def shrunk(scene):
+def shrunk(scene: dict[str, Any]) -> str:
     """A scene without what is for people."""
     for key in ("$schema", "title", "description"):
         scene.pop(key, None)
@@ -53,13 +56,14 @@ def shrunk(scene):
 class Seeds:
     """Inputs to begin with, in a folder for each target, and the folder in which scenes and studies stand."""
 
-    def __init__(self, programs, out):
+    def __init__(self, programs: Path, out: Path) -> None:
         self.folder, self.begin = out / "folder", out / "seeds"
         self.folder.mkdir(parents=True)
         for target in TARGETS:
             (self.begin / target).mkdir(parents=True)
         self.meshes(programs / "midplane", out / "meshes")
-        laws, paths = {}, [scene_file.read(path) for path in sorted((ROOT / "geo").glob("*/path.json"))]
+        laws: dict[str, Any] = {}
+        paths = [scene_file.read(path) for path in sorted((ROOT / "geo").glob("*/path.json"))]
         for file in sorted((ROOT / "geo").glob("*/*.json")):
             content = scene_file.read(file)
             if file.name.endswith("study.json"):
@@ -78,7 +82,7 @@ class Seeds:
             own |= {"side_a": "a.a", "side_b": "b.b"}
             self.add("path", f"{number}", f"{json.dumps(own)}\n---\n{json.dumps(path)}")
 
-    def meshes(self, midplane, out):
+    def meshes(self, midplane: Path, out: Path) -> None:
         """Coarse meshes of the gallery, binary and as text, and scenes on them."""
         for name, coarse in SCENES.items():
             settings = [f"--set=subdomains.{part}.parameters.{one}" for part, all_of in coarse.items() for one in all_of.split()]
@@ -94,21 +98,21 @@ class Seeds:
             for path in made.values():
                 self.add("msh", f"{name}_{path.stem}", path.read_bytes())
                 text = out / name / f"{path.stem}.txt.msh"
-                command = ["gmsh", path, "-save", "-format", "msh41", "-setnumber", "Mesh.Binary", "0", "-v", "0", "-o", text]
+                command: list[str | Path] = ["gmsh", path, "-save", "-format", "msh41", "-setnumber", "Mesh.Binary", "0", "-v", "0", "-o", text]
                 subprocess.run(command, check=True)
                 self.add("msh", f"{name}_{path.stem}_text", text.read_bytes())
 
-    def add(self, target, name, content):
+    def add(self, target: str, name: str, content: str | bytes) -> None:
         """An input of a target."""
         content = content if isinstance(content, bytes) else content.encode()
         (self.begin / target / name).write_bytes(content)
 
 
-def dictionary(schemas, path):
+def dictionary(schemas: list[str], path: Path) -> None:
     """Words of a document for libFuzzer: keys and values of the schemas."""
     words = set()
 
-    def walk(node):
+    def walk(node: Any) -> None:
         if isinstance(node, dict):
             words.update(node.get("properties", {}))
             words.update(str(value) for value in [*node.get("enum", []), node.get("const")] if isinstance(value, str))
@@ -128,27 +132,28 @@ def dictionary(schemas, path):
 class Target:
     """One target: its runs so far and its faults."""
 
-    def __init__(self, programs, out, seeds, name):
+    def __init__(self, programs: Path, out: Path, seeds: Seeds, name: str) -> None:
         self.program, self.name, self.seeds, self.out = programs / f"fuzz_{name}", name, seeds, out
         self.reached, self.faulty = out / "reached" / name, out / "faults"
         self.reached.mkdir(parents=True, exist_ok=True)
-        self.runs, self.memory, self.slowest, self.seconds, self.faults = 0, 0, 0, 0.0, []
+        self.runs, self.memory, self.slowest, self.seconds = 0, 0, 0, 0.0
+        self.faults: list[dict[str, str | None]] = []
 
-    def call(self, *arguments):
+    def call(self, *arguments: str | Path) -> subprocess.CompletedProcess[bytes]:
         """Runs the target."""
         environment = os.environ | {"RAYON_NUM_THREADS": "1", "FUZZ_FOLDER": str(self.seeds.folder), "RUST_BACKTRACE": "1"}
         # mutants of a scene name files: in a folder of its own they find none
         return subprocess.run([self.program, *arguments], env=environment, cwd=self.seeds.folder, capture_output=True, check=False)
 
-    def inputs(self):
+    def inputs(self) -> list[Path]:
         """Folders that it begins with."""
         return [self.seeds.begin / self.name] + [CORPUS / self.name] * (CORPUS / self.name).exists()
 
-    def run(self, runs, seconds):
+    def run(self, runs: int, seconds: float | None) -> Target:
         """Goes on until there were so many runs, or so many seconds; a fault ends libFuzzer, which then begins again."""
         begin = time.monotonic()
         while len(self.faults) < MOST_FAULTS:
-            left = seconds and seconds - self.seconds
+            left = seconds - self.seconds if seconds else 0.0
             if self.runs >= runs or (seconds and left <= 0):
                 break
             words = [f"-dict={self.out / 'words'}"] if self.name in ("scene", "study", "bind", "path") else []
@@ -171,20 +176,20 @@ class Target:
         return self
 
     @staticmethod
-    def number(said, name):
+    def number(said: str, name: str) -> int:
         """A number of libFuzzer's statistics."""
         found = re.search(rf"stat::{name}:\s*(\d+)", said)
         return int(found[1]) if found else 0
 
     @staticmethod
-    def fault(said):
+    def fault(said: str) -> dict[str, str | None]:
         """The reason of an end, and its input."""
         panic = re.search(r"panicked at ([^\n]*)\n([^\n]*)", said)
         what = f"{panic[1]} {panic[2]}" if panic else "".join(re.findall(r"ERROR: libFuzzer: ([^\n]*)", said)[:1])
         file = re.search(r"Test unit written to (\S+)", said)
         return {"what": what or said[-300:], "input": file[1] if file else None}
 
-    def report(self):
+    def report(self) -> dict[str, Any]:
         """Its runs and faults."""
         rate = round(self.runs / self.seconds) if self.seconds else 0
         return {
@@ -196,7 +201,7 @@ class Target:
             "faults": self.faults,
         }
 
-    def minimise(self):
+    def minimise(self) -> None:
         """The smallest set of inputs that reaches as much, as far as small files do."""
         kept = CORPUS / self.name
         new = self.out / "minimised" / self.name
@@ -211,7 +216,7 @@ class Target:
             shutil.copy(file, kept / file.name[:12])
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("programs", type=Path)
@@ -231,7 +236,7 @@ def main():
         targets = list(pool.map(lambda name: Target(programs, out, seeds, name).run(int(options.runs * SHARE[name]), options.seconds), options.targets))
         if options.minimise:
             list(pool.map(Target.minimise, targets))
-    report = {"limits": LIMITS, "targets": [target.report() for target in targets]}
+    report: dict[str, Any] = {"limits": LIMITS, "targets": [target.report() for target in targets]}
     (out / "report.json").write_text(json.dumps(report, indent=1) + "\n")
     faults = [f"{target.name}: {fault['what']}" for target in targets for fault in target.faults]
     for target in report["targets"]:

@@ -10,22 +10,24 @@ import json
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from midplane.vtu import Vtu
+from midplane.vtu import Array, Vtu
 
 FORMS = ["as it is", "condensed", "blocks", "plain"]
 APART = {"time", "peak_memory_bytes", "version"}
 
 
-def scenes(folder):
+def scenes(folder: Path | str) -> list[Path]:
     """Scene files below a folder."""
     files = sorted(Path(folder).rglob("*.json"))
     return [file for file in files if '"subdomains"' in file.read_text() and '"steps"' in file.read_text()]
 
 
-def run(program, scene, form, out):
+def run(program: Any, scene: Path, form: str, out: Path) -> int:
     """Runs a scene into a folder and returns the exit code."""
     command = [program, "run", "--quiet", scene, "-o", out]
     if form != "as it is":
@@ -33,7 +35,7 @@ def run(program, scene, form, out):
     return subprocess.run(command, capture_output=True, check=False).returncode
 
 
-def arrays(file):
+def arrays(file: Path) -> dict[str, Any]:
     """All arrays of a .vtu by name."""
     mesh = Vtu(file)
     found = {"points": mesh.points}
@@ -42,26 +44,26 @@ def arrays(file):
     return found
 
 
-def fields_differ(before, after):
+def fields_differ(before: Path, after: Path) -> str | None:
     """The first difference of two .vtu files, or nothing."""
-    before, after = arrays(before), arrays(after)
-    if list(before) != list(after):
-        return f"arrays {list(before)} became {list(after)}"
-    for name, old in before.items():
-        new = after[name]
+    were, are = arrays(before), arrays(after)
+    if list(were) != list(are):
+        return f"arrays {list(were)} became {list(are)}"
+    for name, old in were.items():
+        new = are[name]
         if old.dtype != new.dtype or old.shape != new.shape or old.tobytes() != new.tobytes():
             return f"{name}: {old.dtype}{old.shape} became {new.dtype}{new.shape}, {distance(old, new)}"
     return None
 
 
-def distance(old, new):
+def distance(old: Array, new: Array) -> str:
     """Largest difference of two arrays in words."""
     if old.shape != new.shape or old.dtype.kind not in "fiu":
         return "not comparable"
     return f"largest difference {np.max(np.abs(old.astype(float) - new.astype(float))):.3e}"
 
 
-def numbers(value, path=""):
+def numbers(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
     """All numbers, flags and absent values of a summary with their keys; texts and lengths of lists of texts do not count."""
     if isinstance(value, dict):
         for key, inner in value.items():
@@ -74,7 +76,7 @@ def numbers(value, path=""):
         yield path, value
 
 
-def texts_differ(before, after):
+def texts_differ(before: Path, after: Path) -> str | None:
     """The first line in which two texts differ, or nothing."""
     old, new = before.read_text().splitlines(), after.read_text().splitlines()
     for at, (a, b) in enumerate(zip(old, new, strict=False)):
@@ -83,7 +85,7 @@ def texts_differ(before, after):
     return None if len(old) == len(new) else f"{len(old)} lines became {len(new)}"
 
 
-def summaries_differ(before, after):
+def summaries_differ(before: Path, after: Path) -> str | None:
     """The first number in which two summaries differ, or nothing."""
     old, new = (dict(numbers(json.loads(file.read_text()))) for file in (before, after))
     for key in sorted(old.keys() | new.keys()):
@@ -92,7 +94,7 @@ def summaries_differ(before, after):
     return None
 
 
-def compare(before, after):
+def compare(before: Path, after: Path) -> tuple[list[str], int]:
     """All differences of two results folders; and how many files were compared."""
     readers = {".vtu": fields_differ, ".csv": texts_differ, ".pvd": texts_differ, ".json": summaries_differ}
     listed = [sorted(str(file.relative_to(of)) for file in of.rglob("*") if file.suffix in readers and "mesh" not in file.parts) for of in (before, after)]
@@ -102,7 +104,7 @@ def compare(before, after):
     return [f"{name}: {why}" for name, why in found if why], len(found)
 
 
-def main():
+def main() -> None:
     """Runs and compares."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("before", help="program of the commit before")

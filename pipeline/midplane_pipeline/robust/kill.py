@@ -7,6 +7,8 @@ after `--resume`: no file more, no file less. Summaries are compared without tim
 run was gone on with. Ends with exit code 1 if one case did not.
 """
 
+from __future__ import annotations
+
 import argparse
 import csv
 import json
@@ -19,6 +21,7 @@ import time
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.places import ROOT
 
@@ -44,13 +47,13 @@ class Case:
     """A command that is disturbed, its results when it is not, and its time then."""
 
     name: str
-    arguments: list
-    resume: list
-    files: dict = field(default_factory=dict)
+    arguments: list[Any]
+    resume: list[str]
+    files: dict[str, Any] = field(default_factory=dict)
     seconds: float = 0.0
 
 
-def digest(path):
+def digest(path: Path) -> Any:
     """The bytes of a file, without what differs between two runs that do the same."""
     data = path.read_bytes()
     if path.name in ("summary.json", "study.json") or path.parent.name == "points":
@@ -65,7 +68,7 @@ def digest(path):
     return data
 
 
-def is_measured(key):
+def is_measured(key: str) -> bool:
     """Quantities of the process, not of the model; one that goes on factors once more."""
     names = (
         "time",
@@ -86,25 +89,25 @@ def is_measured(key):
     return key in names or key.startswith("seconds.")
 
 
-def timeless(value):
+def timeless(value: Any) -> Any:
     """A content without what is measured."""
     if isinstance(value, dict):
         return {key: timeless(below) for key, below in value.items() if not is_measured(key)}
     return [timeless(below) for below in value] if isinstance(value, list) else value
 
 
-def contents(folder):
+def contents(folder: Path) -> dict[str, Any]:
     """All files below a folder by name, hidden ones too, but for its checkpoints."""
     files = [path for path in sorted(folder.rglob("*")) if path.is_file()]
     return {str(path.relative_to(folder)): digest(path) for path in files if not is_checkpoint(path)}
 
 
-def is_checkpoint(path):
+def is_checkpoint(path: Path) -> bool:
     """True of a whole file among the checkpoints."""
     return path.parent.name == "checkpoint" and not path.name.startswith(".")
 
 
-def broken(folder):
+def broken(folder: Path) -> str | None:
     """The first file in the folder of an ended run that is not whole, none if all are."""
     for path in folder.rglob("*"):
         if not path.is_file() or path.name.startswith(".midplane-") or ".midplane-" in str(path.parent):
@@ -118,7 +121,8 @@ def broken(folder):
                 assert data.endswith(b"\n") and len({len(row) for row in rows}) == 1, "rows differ in length"
             elif path.suffix == ".pvd":
                 for entry in xml.fromstring(data).iter("DataSet"):
-                    assert (folder / entry.get("file")).is_file(), f"{entry.get('file')} is not there"
+                    file = entry.get("file", "none")
+                    assert (folder / file).is_file(), f"{file} is not there"
             elif path.suffix == ".vtu":
                 assert data.rstrip().endswith(b"</VTKFile>"), "no end"
             elif path.suffix == ".msh":
@@ -128,7 +132,7 @@ def broken(folder):
     return None
 
 
-def meshers(folder):
+def meshers(folder: Path) -> list[int]:
     """Processes of the mesher that work in a folder."""
     found = []
     for entry in Path("/proc").glob("[0-9]*"):
@@ -144,16 +148,17 @@ def meshers(folder):
 class Test:
     """Runs that are disturbed, and what came of them."""
 
-    def __init__(self, program, out, seed):
+    def __init__(self, program: Path, out: Path, seed: int) -> None:
         self.program, self.out, self.random = Path(program).resolve(), out.resolve(), random.Random(seed)
-        self.failures, self.counts = [], {}
+        self.failures: list[str] = []
+        self.counts: dict[str, tuple[int, int]] = {}
 
-    def start(self, arguments, folder):
+    def start(self, arguments: list[Any], folder: Path) -> subprocess.Popen[str]:
         """Starts the program."""
         command = [self.program, *arguments, "-o", folder]
         return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, cwd=self.out, text=True)
 
-    def cases(self):
+    def cases(self) -> list[Case]:
         """All cases, each run once without disturbance."""
         shutil.rmtree(self.out, ignore_errors=True)
         self.out.mkdir(parents=True)
@@ -171,13 +176,13 @@ class Test:
             print(f"alone    {case.name:<16} {case.seconds:6.2f} s, {len(case.files)} files", flush=True)
         return cases
 
-    def often(self, case):
+    def often(self, case: Case) -> list[str]:
         """Options for the interval of checkpoints; a study has none."""
         if case.name == "study":
             return []
         return ["--checkpoint", self.random.choice(["1", "3", "0.05s", "60s"])]
 
-    def check(self, kind, number, case, folder, told=None):
+    def check(self, kind: str, number: int, case: Case, folder: Path, told: str | None = None) -> None:
         """Goes on with a run that was ended, and compares."""
         process = self.start([*case.arguments, *case.resume], folder)
         _, said = process.communicate()
@@ -193,7 +198,7 @@ class Test:
         if fault is None:
             shutil.rmtree(folder)
 
-    def count(self, kind, name, fault):
+    def count(self, kind: str, name: str, fault: str | None) -> None:
         """Counts a case, and keeps its fault."""
         good, all_of = self.counts.get(kind, (0, 0))
         self.counts[kind] = (good + (fault is None), all_of + 1)
@@ -201,7 +206,7 @@ class Test:
             self.failures.append(f"{name}: {fault}")
             print(f"FAILED   {self.failures[-1]}", flush=True)
 
-    def kill(self, number, case):
+    def kill(self, number: int, case: Case) -> None:
         """SIGKILL, up to three times before the run may go to its end; now and then over good results."""
         folder, fault = self.out / "kill" / f"{number}", None
         if self.random.random() < 0.3:
@@ -215,7 +220,7 @@ class Test:
             fault = fault or (folder.is_dir() and broken(folder)) or None
         self.check("kill", number, case, folder, fault)
 
-    def signal(self, number, case):
+    def signal(self, number: int, case: Case) -> None:
         """A signal that asks the run to end: code 128 + n, a line, no mesher left."""
         folder, fault = self.out / "signal" / f"{number}", None
         sent = self.random.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -235,7 +240,7 @@ class Test:
             fault = f"{sent.name}: no checkpoint: {said.strip()}"
         self.check("signal", number, case, folder, fault)
 
-    def disk(self, number, case):
+    def disk(self, number: int, case: Case) -> None:
         """A disk that is full after so many bytes; the results go on where there is more."""
         mount, folder = self.out / "disk", self.out / "disks" / f"{number}"
         whole = sum(len(data) for data in case.files.values())
@@ -255,7 +260,7 @@ class Test:
             subprocess.run(["umount", mount], check=True)
         self.check("disk", number, case, folder, fault)
 
-    def pair(self, number, cases):
+    def pair(self, number: int, cases: list[Case]) -> None:
         """Two different runs started together in one folder: one is refused and says who is there."""
         folder, two = self.out / "pairs" / f"{number}", self.random.sample(cases, 2)
         runs = [(case, self.start(case.arguments, folder)) for case in two]
@@ -271,7 +276,7 @@ class Test:
         shutil.rmtree(folder)
 
 
-def can_mount(out):
+def can_mount(out: Path) -> bool:
     """True if a small file system can be mounted."""
     place = out / "mount"
     place.mkdir(parents=True, exist_ok=True)
@@ -282,7 +287,7 @@ def can_mount(out):
     return tried.returncode == 0
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")

@@ -21,8 +21,11 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.places import ROOT
+
+Site = dict[str, Any]  # a place of the sources
 
 REASONS = ROOT / "tests/mutants/reasons.json"
 # sources, those that are left out, and the tests of a room, the quick ones first
@@ -105,7 +108,7 @@ pub fn mutant(number: u32) -> bool {
 SLOWER, MORE = 3.0, 20.0
 
 
-def build(work, *arguments):
+def build(work: Path, *arguments: str) -> tuple[subprocess.CompletedProcess[str], list[Any]]:
     """Runs cargo; returns how it ended and its messages."""
     command = ["cargo", *arguments, "--release", "--locked", "--message-format", "json"]
     # beside the programs of the project, which it would replace
@@ -118,14 +121,15 @@ def build(work, *arguments):
 class Mutants:
     """A sample of places, written into a copy of the project."""
 
-    def __init__(self, work, program, areas, count, seed):
+    def __init__(self, work: Path, program: Path, areas: list[str], count: int, seed: int) -> None:
         self.work = work
         files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
         shutil.rmtree(work, ignore_errors=True)
         for name in filter(None, files):
             (work / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(ROOT / name, work / name)
-        self.waiting, self.sample = {}, {}
+        self.waiting: dict[str, list[Site]] = {}
+        self.sample: dict[str, list[Site]] = {}
         for area in areas:
             sources, without, _, _ = AREAS[area]
             found = sorted({str(path.relative_to(ROOT)) for pattern in sources for path in ROOT.glob(pattern)} - set(without))
@@ -137,12 +141,12 @@ class Mutants:
         (work / "src/lib.rs").write_text((ROOT / "src/lib.rs").read_text() + SWITCH)
 
     @staticmethod
-    def rank(seed, site):
+    def rank(seed: int, site: Site) -> str:
         """A number by chance that is the site's own."""
         text = " ".join(str(part) for part in (seed, *(site[key] for key in ("file", "function", "kind", "right", "wrong"))))
         return hashlib.sha256(text.encode()).hexdigest()
 
-    def fill(self, area, count):
+    def fill(self, area: str, count: int) -> None:
         """Draws until there are so many, none of them within another."""
         chosen = self.sample[area]
         while len(chosen) < count and self.waiting[area]:
@@ -150,13 +154,13 @@ class Mutants:
             if all(are_apart(site, other) for other in chosen):
                 chosen.append(site | {"area": area})
 
-    def all(self):
+    def all(self) -> list[Site]:
         """The places of all areas."""
         return [site for area in self.sample for site in self.sample[area]]
 
-    def write(self):
+    def write(self) -> None:
         """The sources with all mutants in them; every one knows where it stands there."""
-        by_file = {}
+        by_file: dict[str, list[Site]] = {}
         for number, site in enumerate(self.all(), 1):
             site["number"] = number
             by_file.setdefault(site["file"], []).append(site)
@@ -180,7 +184,7 @@ class Mutants:
             if path.read_bytes() != out:
                 path.write_bytes(out)
 
-    def compile(self):
+    def compile(self) -> list[str]:
         """Leaves out what does not compile, and draws others for it; the programs of the tests."""
         count = {area: len(sites) for area, sites in self.sample.items()}
         while True:
@@ -211,28 +215,28 @@ class Mutants:
         }
         return [made["midplane"], made["tests"]]
 
-    def nearest(self, span):
+    def nearest(self, span: Site) -> Site:
         """The mutant nearest to the place of a compiler's error."""
         own = [site for site in self.all() if site["file"] == span["file_name"]]
 
-        def distance(site):
+        def distance(site: Site) -> int:
             return max(site["there"][0] - span["byte_end"], span["byte_start"] - site["there"][1])
 
         return min(own, key=distance) if own else self.all()[0]
 
 
-def are_apart(site, other):
+def are_apart(site: Site, other: Site) -> bool:
     """True if neither of two places lies within the other."""
     return other["file"] != site["file"] or other["end"] < site["start"] or site["end"] < other["start"]
 
 
-def tests_of(area, programs):
+def tests_of(area: str, programs: list[str]) -> list[list[str]]:
     """Commands of the tests of an area."""
     _, _, units, integration = AREAS[area]
     return [[programs[0], *units], *([programs[1], f"{name}::"] for name in integration)]
 
 
-def run(commands, number, work, limit):
+def run(commands: list[list[str]], number: int, work: Path, limit: float) -> tuple[str | None, float]:
     """The first test that fails, "time" or None, and the seconds until then."""
     begin = time.monotonic()
     environment = os.environ | {"MUTANT": str(number), "RUST_BACKTRACE": "0", "RAYON_NUM_THREADS": "1"}
@@ -250,7 +254,7 @@ def run(commands, number, work, limit):
         late = threading.Timer(max(0.1, limit - (time.monotonic() - begin)), os.killpg, (process.pid, 9))
         late.start()
         failed, name = None, "?"
-        for line in process.stdout:
+        for line in process.stdout or ():
             if line.startswith("test ") and "..." in line:
                 name = line.split()[1]
             if line.rstrip().endswith("FAILED") and line.startswith("test ") and "result:" not in line:
@@ -267,12 +271,12 @@ def run(commands, number, work, limit):
     return None, time.monotonic() - begin
 
 
-def same(reason, site):
+def same(reason: Site, site: Site) -> bool:
     """True if a reason is that of a place."""
     return all(reason[key] == site[key] for key in ("file", "function", "right", "wrong"))
 
 
-def page(sites, options):
+def page(sites: list[Site], options: argparse.Namespace) -> str:
     """The report in Markdown."""
     areas = {site["area"]: None for site in sites}
     lines = ["# Mutants", "", f"Written by `make mutants`: {len(sites)} places, drawn with seed {options.seed}, each made wrong in turn.", ""]
@@ -287,7 +291,7 @@ def page(sites, options):
         lines.append(f"| {area} | {len(own)} | {len(caught)}, {100 * len(caught) / len(own):.0f} % | {late} | {len(own) - len(caught)} |")
     lines += ["", "Those that survive, and why:", "", "| place | right | wrong | reason |", "|---|---|---|---|"]
 
-    def code(text):
+    def code(text: str) -> str:
         return "`" + " ".join(text.split()).replace("|", "\\|") + "`" if text else ""
 
     for site in sites:
@@ -297,7 +301,7 @@ def page(sites, options):
     return "\n".join(lines) + "\n"
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=Path, nargs="?", default=ROOT / "target/release/mutants", help="target/release/mutants")
@@ -326,7 +330,7 @@ def main():
         limits[area] = SLOWER * seconds + MORE
         print(f"{area}: {seconds:.0f} s without a mutant", flush=True)
 
-    def one(site):
+    def one(site: Site) -> None:
         site["caught"], site["seconds"] = run(tests_of(site["area"], programs), site["number"], mutants.work, limits[site["area"]])
         print(f"{site['number']:4} {site['file']}:{site['line']} {site['kind']}: {site['caught'] or 'SURVIVES'} {site['seconds']:.0f} s", flush=True)
 
@@ -346,7 +350,7 @@ def main():
     write(sites, reasons, out, options)
 
 
-def write(sites, reasons, out, options):
+def write(sites: list[Site], reasons: list[Site], out: Path, options: argparse.Namespace) -> None:
     """The report, and a line for the terminal."""
     for site in sites:
         site["reason"] = next((reason["reason"] for reason in reasons if same(reason, site)), "")

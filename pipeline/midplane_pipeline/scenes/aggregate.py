@@ -14,12 +14,11 @@ before it is solved:
 
 import argparse
 from pathlib import Path
-from typing import Any
 
 from midplane import scene_file
 
 from .bounds import tell
-from .net import Net, area_and_centroid, pairs
+from .net import Net, Point, area_and_centroid, pairs
 
 HEAD = "// Made by midplane_pipeline.scenes.aggregate with seed {seed}; change that, not this.\n"
 
@@ -58,19 +57,21 @@ MORTAR = """// Concrete at the meso scale: the mortar between the aggregates, on
 class Geo:
     """A .geo under construction: points and lines once each, surfaces, groups."""
 
-    def __init__(self, head, edge):
+    def __init__(self, head: str, edge: float) -> None:
         self.text = [head, f'DefineConstant[ edge  = {{{edge}, Name "Length of the edges [m]"}} ];']
         self.text += ['DefineConstant[ order = {1, Name "Order of the elements, 1 or 2"} ];', ""]
-        self.points, self.lines, self.surfaces = {}, {}, 0
+        self.points: dict[Point, int] = {}
+        self.lines: dict[tuple[int, int], int] = {}
+        self.surfaces = 0
 
-    def point(self, place):
+    def point(self, place: Point) -> int:
         """Number of a point."""
         if place not in self.points:
             self.points[place] = len(self.points) + 1
             self.text.append(f"Point({self.points[place]}) = {{{place[0]:.6f}, {place[1]:.6f}, 0, edge}};")
         return self.points[place]
 
-    def line(self, start, end):
+    def line(self, start: Point, end: Point) -> int:
         """Number of a line, negative the other way."""
         key = self.point(start), self.point(end)
         if key[::-1] in self.lines:
@@ -80,24 +81,24 @@ class Geo:
             self.text.append(f"Line({self.lines[key]}) = {{{key[0]}, {key[1]}}};")
         return self.lines[key]
 
-    def surface(self, loop):
+    def surface(self, loop: list[Point]) -> None:
         """A surface within a loop of points."""
         lines = [self.line(*ends) for ends in pairs(loop)]
         self.surfaces += 1
         self.text.append(f"Curve Loop({self.surfaces}) = {{{', '.join(map(str, lines))}}};")
         self.text.append(f"Plane Surface({self.surfaces}) = {{{self.surfaces}}};")
 
-    def group(self, kind, name, members):
+    def group(self, kind: str, name: str, members: list[int]) -> None:
         """A physical group."""
         self.text.append(f'Physical {kind}("{name}") = {{{", ".join(str(abs(member)) for member in members)}}};')
 
-    def write(self, path):
+    def write(self, path: Path) -> None:
         """Ends the text and writes it."""
         self.text.append(f'Physical Surface("body") = {{1:{self.surfaces}}};')
         path.write_text("\n".join([*self.text, "Mesh.ElementOrder = order;", ""]))
 
 
-def write_aggregates(net, seed, path):
+def write_aggregates(net: Net, seed: int, path: Path) -> None:
     """The aggregates, each a surface of its own."""
     geo = Geo(AGGREGATES.format(count=len(net.aggregates)) + HEAD.format(seed=seed), 0.006)
     for aggregate in net.aggregates:
@@ -105,10 +106,10 @@ def write_aggregates(net, seed, path):
     geo.write(path)
 
 
-def write_mortar(net, seed, path):
+def write_mortar(net: Net, seed: int, path: Path) -> None:
     """A piece of mortar along every side of a cell, between two aggregates or one and a face, and a triangle where three cells meet."""
     geo = Geo(MORTAR + HEAD.format(seed=seed), 0.004)
-    faces = {"bottom": [], "right": [], "top": [], "left": []}
+    faces: dict[str, list[int]] = {"bottom": [], "right": [], "top": [], "left": []}
     for start, end, a, b in net.sides():
         ends = [net.at[a, end], net.at[a, start]]
         if b is None:
@@ -116,7 +117,7 @@ def write_mortar(net, seed, path):
             geo.surface(ends + beside)
             faces[net.face(*beside)].append(geo.line(*beside))
             continue
-        feet: dict[str, Any] = {c: [net.foot(a, c), net.foot(b, c)] if net.faces(c) else [] for c in (start, end)}
+        feet = {c: [net.foot(a, c), net.foot(b, c)] if net.faces(c) else [] for c in (start, end)}
         geo.surface([*ends, *feet[start], net.at[b, start], net.at[b, end], *feet[end][::-1]])
         for pair in filter(None, feet.values()):
             faces[net.face(*pair)].append(geo.line(*pair))
@@ -130,7 +131,7 @@ def write_mortar(net, seed, path):
     geo.write(path)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where to write, such as geo/aggregate")

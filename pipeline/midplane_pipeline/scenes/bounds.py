@@ -2,11 +2,12 @@
 
 import heapq
 import math
+from typing import Any
 
-from .net import area_and_centroid
+from .net import Net, Point, area_and_centroid
 
 
-def stiffness(net, scene):
+def stiffness(net: Net, scene: dict[str, Any]) -> tuple[float, float, float]:
     """Young's moduli of uniform stress along y and of uniform strain, plane stress and one Poisson's ratio."""
     whole = net.size**2
     share = sum(area_and_centroid(aggregate)[0] for aggregate in net.aggregates) / whole
@@ -24,7 +25,7 @@ def stiffness(net, scene):
     return share, soft, sum(shares[name] * moduli[name] for name in shares)
 
 
-def resistance(law, opening, slip):
+def resistance(law: dict[str, Any], opening: float, slip: float) -> float:
     """Largest σ·opening + τ·slip within the hyperbola of a law; infinite where friction has no bound."""
     chi, c, tan_phi = law["tensile_strength"], law["cohesion"], law["tan_friction"]
     opening /= tan_phi
@@ -33,10 +34,10 @@ def resistance(law, opening, slip):
     return c * opening - (c - chi * tan_phi) * math.sqrt(opening**2 - slip**2)
 
 
-def weakest_path(net, scene, direction):
+def weakest_path(net: Net, scene: dict[str, Any], direction: tuple[float, float]) -> float:
     """The least resistance, per thickness, to a motion of all above a path from the left to the right (Dijkstra)."""
     dx, dy = direction
-    ways = {}
+    ways: dict[Point, list[tuple[Point, float]]] = {}
     for name, lines in (("rim", net.rims()), ("joint", net.joints())):
         for ends in lines:
             for start, end in (ends, ends[::-1]):
@@ -58,7 +59,7 @@ def weakest_path(net, scene, direction):
     return math.inf
 
 
-def tell(net, scene, pressed):
+def tell(net: Net, scene: dict[str, Any], pressed: float) -> None:
     """Prints the bounds of a scene before it is solved."""
     share, soft, stiff = stiffness(net, scene)
     print(f"aggregates {100 * share:.1f} % of the area; modulus between {soft:.0f} and {stiff:.0f}")

@@ -18,6 +18,7 @@ import argparse
 import itertools
 import math
 import os
+from collections.abc import Iterator
 
 LENGTH, HEIGHT = 0.22, 0.062  # of a brick, with half a joint on every side [m]
 THICKNESS, BEAM = 0.1, 0.1  # of the wall; height of the beam and of the base [m]
@@ -127,20 +128,20 @@ MIDDLE = {  # strength and energy in tension as in other computations of these w
 }
 
 
-def ends(number, bricks):
+def ends(number: int, bricks: float) -> list[float]:
     """Places of the head joints of a course and of its two ends, in lengths of a brick: even courses are shifted by half a brick."""
     shift = 0.5 * (number % 2 == 0)
     inner = [place + shift for place in range(int(bricks) + 1) if 0 < place + shift < bricks]
     return [0.0, *inner, bricks]
 
 
-def subdomain(name, geo, material, **parameters):
+def subdomain(name: str, geo: str, material: str, **parameters: float) -> tuple[str, str]:
     """One line of `subdomains`."""
     values = ", ".join(f'"{key}": {value:.12g}' for key, value in parameters.items())
     return name, f'    "{name}": {{ "geo": "{geo}", "material": "{material}", "parameters": {{ {values} }} }}'
 
 
-def courses(wall):
+def courses(wall: argparse.Namespace) -> Iterator[list[tuple[str, str]]]:
     """The bricks of every course, from the lowest on, as names and lines."""
     for number in range(1, wall.courses + 1):
         edges, places = wall.edges[(number - 1) % 2], ends(number, wall.bricks)
@@ -160,7 +161,7 @@ def courses(wall):
         ]
 
 
-def scene(wall):
+def scene(wall: argparse.Namespace) -> str:
     """The text of the scene."""
     width, walling = LENGTH * wall.bricks, list(courses(wall))
     line = {"width": width, "height": BEAM, "edges": round(wall.bricks * sum(wall.edges) / 2), "rows": 1}
@@ -192,7 +193,7 @@ def scene(wall):
     )
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--courses", type=int, default=16, help="courses that are not clamped (default: %(default)s)")

@@ -17,16 +17,17 @@ import statistics
 import subprocess
 import time
 from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.places import ROOT
 
 from .compare import repeatability, together
 from .extras import features, penalty, refinements
-from .front import MARGINS, candidates, front, label, tie
+from .front import MARGINS, Row, candidates, front, label, tie
 from .history import curves
 from .machine import machine, mesher, pin
 from .robust import robustness
-from .scenes import SCENES, knobs, reference, settings
+from .scenes import SCENES, Scene, knobs, reference, settings
 
 PRESETS = ("draft", "normal", "fine")
 # points of the hypercube, rounds of the front in each of two measurements, scenes, those whose front is run moved and turned
@@ -42,13 +43,14 @@ SMALL = 1
 class Campaign:
     """The runs of a scene."""
 
-    def __init__(self, program, scene, out, form):
+    def __init__(self, program: Path, scene: Scene, out: Path, form: str) -> None:
         self.program, self.scene, self.form = program, scene, form
         self.out = out / scene.name
         self.gmsh = mesher(out)
-        self.points, self.measured = [], {}
+        self.points: list[Row] = []
+        self.measured: dict[str, Row] = {}
 
-    def study(self, phase, labelled, measures=None, repeat=1):
+    def study(self, phase: str, labelled: list[Any], measures: dict[str, Any] | None = None, repeat: int = 1) -> list[Row]:
         """Runs (labels, settings) as one study, and returns its points as rows."""
         folder = self.out / phase
         folder.mkdir(parents=True, exist_ok=True)
@@ -67,16 +69,16 @@ class Campaign:
         link.parent.mkdir(exist_ok=True)
         if not link.exists():
             link.symlink_to(meshes.resolve())
-        options = ["-o", folder / "out", "--threads", "1", "-q", "--gmsh", self.gmsh]
+        options: list[str | Path] = ["-o", folder / "out", "--threads", "1", "-q", "--gmsh", self.gmsh]
         subprocess.run([self.program, "study", folder / "study.json", *options], check=True)
         done = json.loads((folder / "out" / "study.json").read_text())
         return [self.row(phase, labels, point) for (labels, _), point in zip(labelled, done["points"], strict=True)]
 
-    def keep(self, phase):
+    def keep(self, phase: str) -> None:
         """Its table beside the campaign's own."""
         shutil.copyfile(self.out / phase / "out" / "study.csv", self.out / f"{phase}.csv")
 
-    def row(self, phase, labels, point):
+    def row(self, phase: str, labels: dict[str, Any], point: dict[str, Any]) -> Row:
         """A point as the campaign keeps it."""
         stages = {name: statistics.median(s.get(name, 0.0) for s in point["stages"]) for name in point["stages"][0]}
         wall = [s - stage.get("mesh", 0.0) for s, stage in zip(point["seconds"], point["stages"], strict=True)]
@@ -102,11 +104,11 @@ class Campaign:
             "settings": [s for s in point["settings"] if "study:" not in s],
         } | {name: point["counts"].get(name) for name in ("dofs", "iterations", "increments", "parts", "rejected", "factor_entries", "stiffness_number")}
 
-    def labelled(self, labels):
+    def labelled(self, labels: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Labels and their settings."""
         return labels, settings(self.scene, labels)
 
-    def measure(self, phase, chosen):
+    def measure(self, phase: str, chosen: list[Any]) -> list[Row]:
         """Runs settings by their labels; what an earlier phase has measured is not run again."""
         keys = [json.dumps(settings(self.scene, labels)) for labels in chosen]
         fresh = {key: labels for key, labels in zip(keys, chosen, strict=True) if key not in self.measured}
@@ -118,7 +120,7 @@ class Campaign:
         self.points += rows
         return rows
 
-    def table(self):
+    def table(self) -> dict[str, dict[str, Any]]:
         """The knobs that this campaign turns."""
         table = knobs(self.scene)
         if self.scene.swept:
@@ -128,10 +130,11 @@ class Campaign:
             table["refinement"] = {k: v for k, v in table["refinement"].items() if v <= SMALL}
         return table
 
-    def sweep(self):
+    def sweep(self) -> dict[str, float]:
         """One knob at a time around the reference; returns {knob: ratio of its largest to its smallest error}."""
         table = self.table()
-        chosen, seen = [{}], [settings(self.scene, {})]
+        chosen: list[dict[str, str]] = [{}]
+        seen = [settings(self.scene, {})]
         for name, values in table.items():
             for level in values:
                 setting = settings(self.scene, {name: level})
@@ -146,7 +149,7 @@ class Campaign:
             spans[name] = max(errors) / min(errors) if len(errors) > 1 else 1.0
         return spans
 
-    def hypercube(self, count, seed=1):
+    def hypercube(self, count: int, seed: int = 1) -> list[Row]:
         """Every knob in as many strata as points, each taken once."""
         table, draw = self.table(), random.Random(seed)
         columns = {}
@@ -159,20 +162,20 @@ class Campaign:
         chosen = [{name: c[k] for name, c in columns.items() if c[k] != usual[name]} for k in range(count)]
         return self.measure("hypercube", chosen)
 
-    def factorial(self, phase, names):
+    def factorial(self, phase: str, names: list[str]) -> list[Row]:
         """All combinations of two knobs."""
         a, b = names
         table = self.table()
         return self.measure(phase, [{a: x, b: y} for x in table[a] for y in table[b]])
 
-    def presets(self, repeat):
+    def presets(self, repeat: int) -> list[Row]:
         """The scene as its files have it, with every preset."""
         labelled = [({"accuracy": name}, self.scene.settings | {"accuracy": name}) for name in PRESETS]
         rows = self.study("presets", labelled, repeat=repeat)
         self.keep("presets")
         return rows
 
-    def repeats(self, half, chosen, rounds):
+    def repeats(self, half: str, chosen: list[Any], rounds: int) -> list[Row]:
         """Points again, all in turn, round after round; the campaign keeps their fastest times."""
         labelled = [self.labelled(row["labels"]) for row in chosen]
         rows = [row | {"times": []} for row in chosen]
@@ -185,14 +188,14 @@ class Campaign:
         return rows
 
 
-def write_whole(path, text):
+def write_whole(path: Path, text: str) -> None:
     """Writes a file that is never half there."""
     aside = path.with_suffix(".writing")
     aside.write_text(text)
     aside.replace(path)
 
 
-def run_scene(program, scene, out, form, robust):
+def run_scene(program: Path, scene: Scene, out: Path, form: str, robust: bool) -> dict[str, Any]:
     """All phases of a scene."""
     count, rounds = FORMS[form][:2]
     campaign = Campaign(program, scene, out, form)
@@ -201,7 +204,7 @@ def run_scene(program, scene, out, form, robust):
     if not scene.swept:
         campaign.hypercube(count)
     knob_pair = ["refinement", "element"]
-    movers = sorted(spans, key=spans.get, reverse=True)[:2]
+    movers = sorted(spans, key=spans.__getitem__, reverse=True)[:2]
     campaign.factorial("factorial", knob_pair)
     if set(movers) != set(knob_pair) and form != "reduced" and not scene.swept:
         campaign.factorial("factorial of the two that move most", movers)
@@ -238,7 +241,7 @@ def run_scene(program, scene, out, form, robust):
     } | more
 
 
-def repeats_csv(path, halves):
+def repeats_csv(path: Path, halves: list[list[Row]]) -> None:
     """The times of all repeats, a row a point and measurement."""
     with open(path, "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
@@ -248,7 +251,7 @@ def repeats_csv(path, halves):
                 table.writerow([label(row), row["error"], half, *(f"{t:.6g}" for t in row["times"])])
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(prog="python -m midplane_pipeline.trade", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
@@ -275,7 +278,7 @@ def main():
     scenes = {name: run_scene(program, SCENES[name], out, options.form, name in robust) for name in chosen}
     if cores:
         pin(cores)
-    extras = {"penalty": penalty(program, out, options.form)}
+    extras: dict[str, Any] = {"penalty": penalty(program, out, options.form)}
     if options.form != "reduced":
         extras |= {"refinements": refinements(program, out), "features": features(program, out)}
     result = {

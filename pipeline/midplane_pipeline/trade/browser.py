@@ -36,7 +36,7 @@ window.addEventListener('load', function () {
 """
 
 
-def run(browser, page, *options):
+def run(browser: str, page: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """Runs the browser on a page."""
     # a profile of its own, no sandbox because containers have none
     with tempfile.TemporaryDirectory() as profile:
@@ -45,7 +45,7 @@ def run(browser, page, *options):
         return subprocess.run([*command, page.resolve().as_uri()], capture_output=True, text=True, timeout=300)
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("page", type=Path, nargs="?", default=Path("results/trade/trade.html"))

@@ -12,18 +12,18 @@ import statistics
 import sys
 from pathlib import Path
 
-from .front import SAME, error_of, label, once, spread, tie
+from .front import SAME, Row, error_of, label, once, spread, tie
 
 
-def together(a, b):
+def together(a: Row, b: Row) -> Row:
     """A point measured twice: that of the faster one, with all times."""
     return (a if a["time"] <= b["time"] else b) | {"times": a["times"] + b["times"]}
 
 
-def ratios(front, rows, others, floor):
+def ratios(front: list[Row], rows: list[Row], others: list[Row], floor: float) -> list[float]:
     """For every point of a front: how many times longer the slower of two measurements takes to its error."""
 
-    def time(measured, error):
+    def time(measured: list[Row], error: float) -> float:
         times = [row["time"] for row in measured if error_of(row, floor) <= (1 + SAME) * error]
         return min(times, default=math.inf)
 
@@ -34,9 +34,9 @@ def ratios(front, rows, others, floor):
     return found
 
 
-def repeatability(front, halves, pooled, floor):
+def repeatability(front: list[Row], halves: list[list[Row]], pooled: list[Row], floor: float) -> Row:
     """Agreement of the two measurements of a campaign at its own front."""
-    found, most = ratios(front, *halves, floor), statistics.median(spread(row) for row in pooled)
+    found, most = ratios(front, halves[0], halves[1], floor), statistics.median(spread(row) for row in pooled)
     repeated = len(pooled) if halves[0] is not halves[1] else 0
     return {
         "points": len(front),
@@ -48,13 +48,13 @@ def repeatability(front, halves, pooled, floor):
     }
 
 
-def compare(name, a, b):
+def compare(name: str, a: Row, b: Row) -> tuple[list[str], bool]:
     """Lines that say how a scene of two campaigns compares, and whether they agree."""
     floor = a["floor"]
     pooled = [[together(*rows) for rows in zip(*scene["repeated"], strict=True)] for scene in (a, b)]
     most = max(scene["repeatability"]["spread"] for scene in (a, b))
     levels = sorted(once(a["front"] + b["front"]), key=lambda row: row["error"], reverse=True)
-    found = ratios(levels, *pooled, floor)
+    found = ratios(levels, pooled[0], pooled[1], floor)
     apart = [(row, ratio) for row, ratio in zip(levels, found, strict=True) if ratio - 1 > most]
     worst = max(range(len(found)), key=found.__getitem__)
     same = {tuple(row["settings"]) for row in a["front"]} & {tuple(row["settings"]) for row in b["front"]}
@@ -67,7 +67,7 @@ def compare(name, a, b):
     return lines, not apart
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("campaigns", type=Path, nargs=2, help="two files trade.json")

@@ -6,6 +6,7 @@ import json
 import shutil
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 from .page import benches
 from .scenes import SCENES
@@ -30,17 +31,17 @@ WIDTH = 120
 MARKS = ("<!-- trade -->", "<!-- /trade -->")
 
 
-def table(head, rows):
+def table(head: list[str], rows: list[Any]) -> str:
     """A Markdown table."""
 
-    def text(cell):
+    def text(cell: Any) -> str:
         return str(cell[0] if isinstance(cell, tuple) else cell)
 
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(text(cell) for cell in row) + " |" for row in rows])
 
 
-def scene_text(name, scene):
+def scene_text(name: str, scene: dict[str, Any]) -> str:
     """The front of a scene and, in the full form, what it hangs on."""
     parts = [f"### {name}: {scene['case']}\n", f"Error: largest of {', '.join(scene['deciding'])}.\n"]
     parts += [table(*front_table(scene)), ""]
@@ -49,7 +50,7 @@ def scene_text(name, scene):
     return "\n".join(parts)
 
 
-def document(data):
+def document(data: dict[str, Any]) -> str:
     """docs/TRADE.md."""
     m, scenes = data["machine"], data["scenes"]
     parts = [
@@ -95,7 +96,7 @@ def document(data):
     return "\n".join(parts) + "\n"
 
 
-def presets(data):
+def presets(data: dict[str, Any]) -> dict[str, Any]:
     """Presets as the tests run them again."""
     result = {}
     for name, scene in data["scenes"].items():
@@ -112,7 +113,7 @@ def presets(data):
     return result
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("results", type=Path, help="results/trade")

@@ -7,6 +7,8 @@ import shutil
 import statistics
 import subprocess
 import time
+from pathlib import Path
+from typing import Any
 
 from midplane.stored import Stored
 
@@ -19,7 +21,7 @@ from .machine import mesher
 from .scenes import STRIP, mesh
 
 
-def study(program, folder, content, *options):
+def study(program: Path, folder: Path, content: dict[str, Any], *options: str | Path) -> dict[str, Any]:
     """Runs a study and returns its study.json."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "study.json").write_text(json.dumps(content, indent=1))
@@ -27,7 +29,7 @@ def study(program, folder, content, *options):
     return json.loads((folder / "out" / "study.json").read_text())
 
 
-def penalty(program, out, form):
+def penalty(program: Path, out: Path, form: str) -> list[dict[str, Any]]:
     """The strip at stiffnesses from soft to rigid, both couplings, on meshes that nearly match and that do not."""
     rows = []
     edges = {"16:24": (16, 24), "16:17": (16, 17)}
@@ -75,7 +77,7 @@ def penalty(program, out, form):
     return rows
 
 
-def spent(command):
+def spent(command: list[Any]) -> float:
     """Processor time of a command [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=False, stderr=subprocess.DEVNULL)
@@ -83,7 +85,7 @@ def spent(command):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def refinements(program, out):
+def refinements(program: Path, out: Path) -> dict[str, Any]:
     """The 6 x 6 study of the strip against 36 runs of its points, all meshed afresh, in one go."""
     folder = out / "refinements"
     shutil.rmtree(folder, ignore_errors=True)
@@ -113,7 +115,7 @@ def refinements(program, out):
     }
 
 
-def features(program, out, repeat=5):
+def features(program: Path, out: Path, repeat: int = 5) -> list[dict[str, Any]]:
     """Time and memory of the shear box with every feature switched on: runs take turns, the processor's time counts."""
     here = box(program, "10k", out / "features")
     scene = json.loads((here / "cracking.json").read_text())
@@ -123,7 +125,7 @@ def features(program, out, repeat=5):
     history = scene["output"]["history"]
     few = dict(list(history.items())[:1])
 
-    def variant(law, steps=low, fields="last", columns=few):
+    def variant(law: dict[str, Any], steps: list[Any] = low, fields: str = "last", columns: dict[str, Any] = few) -> dict[str, Any]:
         joint = scene["interfaces"]["joint"] | {"law": law}
         output = {"fields": fields, "history": columns}
         return scene | {"interfaces": {"joint": joint}, "steps": steps, "output": output}
@@ -141,7 +143,8 @@ def features(program, out, repeat=5):
     files = {name: here / f"{k}.json" for k, name in enumerate(variants)}
     for name, content in variants.items():
         files[name].write_text(json.dumps(content))
-    seconds, summaries = {name: [] for name in variants}, {}
+    seconds: dict[str, list[float]] = {name: [] for name in variants}
+    summaries: dict[str, dict[str, Any]] = {}
     for _ in range(repeat):
         for name, file in files.items():
             seconds[name].append(spent([program, "run", "-q", file, "-o", here / "out", "--threads", "1"]))

@@ -1,16 +1,18 @@
 """The figures of the trade page: plotly for the page, matplotlib for the PNGs."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
 import plotly.graph_objects as go
+from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter
 from midplane.pictures import page
 from midplane.pictures.page import BLUE, GREEN, INK, MARKERS, ORANGE, PALE, PURPLE, RUNS, SKY, VERMILLION
 from plotly.subplots import make_subplots
 
-from .front import FLOOR, error_of, label
+from .front import FLOOR, Row, error_of, label
 
 PHASES = {
     "sweep": BLUE,
@@ -20,51 +22,51 @@ PHASES = {
 }
 ANSWERED = ("tolerance", "increments", "refinement")
 FRONT, FAILED, PRESET = GREEN, INK, VERMILLION
-LAYOUT = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
+LAYOUT: dict[str, Any] = {"template": "plotly_white", "margin": {"l": 70, "r": 20, "t": 50, "b": 60}, "font": {"size": 13}}
 LAYOUT["colorway"] = RUNS
 
 
-def log_axis(title):
+def log_axis(title: str) -> dict[str, Any]:
     """A logarithmic axis of plotly."""
     return {"type": "log", "title": title, "exponentformat": "power", "dtick": 1}
 
 
-def hover(row):
+def hover(row: Row) -> str:
     """Text of a point."""
     lines = [label(row), f"error {row['error']:.3g}" if row["error"] is not None else row["message"][:120]]
     lines += [f"{row['time']:.3g} s", f"{row['dofs'] or 0:.0f} dofs"]
     return "<br>".join(lines)
 
 
-def top_of(scene):
+def top_of(scene: dict[str, Any]) -> float:
     """Height of failed points."""
     known = [row["error"] for row in scene["points"] if row["error"] is not None]
     return 4 * max(known, default=1.0)
 
 
-def shown(row, floor=0.0):
+def shown(row: Row, floor: float = 0.0) -> float:
     """Height of a point by its error."""
     return max(error_of(row, floor), 1e-12)
 
 
-def against_time(rows, **options):
+def against_time(rows: list[Row], **options: Any) -> Any:
     """A trace of plotly: error against time, with the setting of every point."""
-    places = {"x": [row["time"] for row in rows], "y": [shown(row) for row in rows], "mode": "markers"}
+    places: dict[str, Any] = {"x": [row["time"] for row in rows], "y": [shown(row) for row in rows], "mode": "markers"}
     return places | {"hovertext": [hover(row) for row in rows], "hoverinfo": "text"} | options
 
 
-def split(rows):
+def split(rows: list[Row]) -> tuple[list[Any], list[Any]]:
     """Those that are done and those that failed."""
     return [row for row in rows if row["error"] is not None], [row for row in rows if row["error"] is None]
 
 
-def time_and_error(figure, title):
+def time_and_error(figure: Any, title: str) -> None:
     """Both axes of a figure of errors against time."""
     time = log_axis("time [s]") | {"dtick": "D2"}
     figure.update_layout(title=title, xaxis=time, yaxis=log_axis("relative error"), **LAYOUT)
 
 
-def front_figure(scene):
+def front_figure(scene: dict[str, Any]) -> Any:
     """Error against time, every point labelled, the front as a line, failed points at the top."""
     figure = go.Figure()
     known, failed = split(scene["points"])
@@ -105,7 +107,7 @@ def front_figure(scene):
     return figure
 
 
-def knob_figure(scene):
+def knob_figure(scene: dict[str, Any]) -> Any:
     """Error against time of the sweep, a line a knob through its points and the reference setting."""
     figure = go.Figure()
     sweep = [row for row in split(scene["points"])[0] if row["phase"] == "sweep"]
@@ -113,13 +115,13 @@ def knob_figure(scene):
         rows = [row for row in sweep if name in row["labels"] or not row["labels"]]
         rows.sort(key=lambda row: row["time"])
         values = [row["labels"].get(name, scene["reference"][name]) for row in rows]
-        text = {"text": values, "textposition": "top center", "textfont": {"size": 10}}
+        text: dict[str, Any] = {"text": values, "textposition": "top center", "textfont": {"size": 10}}
         figure.add_scatter(**against_time(rows, mode="lines+markers+text", name=name, **text))
     time_and_error(figure, "One knob at a time")
     return figure
 
 
-def answer_figure(scene):
+def answer_figure(scene: dict[str, Any]) -> Any:
     """The answer against tolerance, increments and refinement, each alone; a line is the exact one."""
     name = scene["deciding"][0]
     sweep = [row for row in scene["points"] if row["phase"] == "sweep" and row["values"].get(name) is not None]
@@ -149,7 +151,7 @@ def answer_figure(scene):
     return figure
 
 
-def curve_figure(title, curves):
+def curve_figure(title: str, curves: Any) -> Any:
     """Histories over each other."""
     figure = go.Figure()
     for curve in curves:
@@ -158,16 +160,16 @@ def curve_figure(title, curves):
     return figure
 
 
-def groups(rows):
+def groups(rows: list[Row]) -> Any:
     """Points of the penalty by coupling, element and edges."""
-    table = {}
+    table: dict[tuple[str, str, str], list[Row]] = {}
     for row in rows:
         if row["error"] is not None:
             table.setdefault((row["element"], row["edges"], row["coupling"]), []).append(row)
     return table
 
 
-def penalty_figure(rows):
+def penalty_figure(rows: list[Row]) -> Any:
     """Traction error against stiffness."""
     figure = go.Figure()
     for (element, edges, coupling), group in groups(rows).items():
@@ -187,7 +189,7 @@ def penalty_figure(rows):
     return figure
 
 
-def save_fronts(scenes, path):
+def save_fronts(scenes: dict[str, Any], path: Path) -> None:
     """All fronts in one picture, for the README."""
     plt.rcParams.update(page.STYLE)
     columns = min(3, len(scenes))
@@ -207,10 +209,10 @@ def save_fronts(scenes, path):
     page.save(figure, path)
 
 
-def draw_front(axis, scene):
+def draw_front(axis: Axes, scene: dict[str, Any]) -> None:
     """All points of a scene, its front, its presets by name, failed points on the upper edge."""
 
-    def draw(rows, at=shown, **look):
+    def draw(rows: list[Row], at: Any = shown, **look: Any) -> None:
         axis.plot([row["time"] for row in rows], [at(row) for row in rows], **look)
 
     known, failed = split(scene["points"])
@@ -218,7 +220,7 @@ def draw_front(axis, scene):
     alone = {"linestyle": ""}
     draw(known, marker="o", markersize=1.8, color=PALE, label="all points", zorder=1, **alone)
 
-    def level(row):
+    def level(row: Row) -> Any:
         return shown(row, scene["floor"])
 
     front = {"marker": "D", "markersize": 3, "linewidth": 1.1, "drawstyle": "steps-post", "zorder": 3}
@@ -235,7 +237,7 @@ def draw_front(axis, scene):
     axis.grid(True, which="major")
 
 
-def save_penalty(rows, path):
+def save_penalty(rows: list[Row], path: Path) -> None:
     """Traction error against stiffness, for the README."""
     plt.rcParams.update(page.STYLE)
     figure, (axis,) = page.graphs(1, 4.2)

@@ -1,6 +1,9 @@
 """A self-contained HTML page in the making: headings, tables that sort, figures that move."""
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 from plotly.offline import get_plotlyjs
 
@@ -43,28 +46,29 @@ document.body.dataset.ready = 'yes';
 class Page:
     """HTML in the making."""
 
-    def __init__(self, title):
-        self.title, self.parts, self.figures = title, [], 0
+    def __init__(self, title: str) -> None:
+        self.title, self.figures = title, 0
+        self.parts: list[str] = []
 
-    def add(self, text):
+    def add(self, text: str) -> None:
         """Adds markup."""
         self.parts.append(text)
 
-    def heading(self, text, level=2):
+    def heading(self, text: str, level: int = 2) -> None:
         """Adds a heading."""
         self.add(f"<h{level}>{page_text(text)}</h{level}>")
 
-    def text(self, text, kind=""):
+    def text(self, text: str, kind: str = "") -> None:
         """Adds a paragraph."""
         self.add(f'<p class="{kind}">{page_text(text)}</p>')
 
-    def figure(self, figure):
+    def figure(self, figure: Any) -> None:
         """Adds a figure of plotly."""
         self.figures += 1
         name = f"figure{self.figures}"
         self.add(f'<div id="{name}" class="figure"></div><script>Plotly.newPlot("{name}", {figure.to_json()}, {{}}, {{responsive: true}})</script>')
 
-    def table(self, head, rows, classes=(), scroll=False):
+    def table(self, head: list[str], rows: list[Any], classes: Sequence[str] = (), scroll: bool = False) -> None:
         """Cells are texts, to the left, or (text, number to sort by)."""
         texts = [isinstance(cell, str) for cell in rows[0]] if rows else [True] * len(head)
         kinds = [" class='text'" if text else "" for text in texts]
@@ -80,7 +84,7 @@ class Page:
             lines.append("</tr>")
         self.add("".join([*lines, "</tbody></table></div>"]))
 
-    def write(self, path):
+    def write(self, path: Path) -> None:
         """Writes the page."""
         head = f"<!DOCTYPE html><html lang='en'><head><meta charset='utf-8'><title>{page_text(self.title)}</title>"
         head += f"<style>{STYLE}</style><script>{get_plotlyjs()}</script></head><body>"

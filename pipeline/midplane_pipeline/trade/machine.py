@@ -4,11 +4,13 @@ import os
 import platform
 import subprocess
 import time
+from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.bench.scenes import processor
 
 
-def said(*command):
+def said(*command: str | Path) -> str:
     """Output of a program about itself, or nothing."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=20)
@@ -17,7 +19,7 @@ def said(*command):
     return (done.stdout or done.stderr).strip()
 
 
-def machine(program):
+def machine(program: Path) -> dict[str, Any]:
     """Processor, cores, versions, commit, date."""
     return {
         "date": time.strftime("%Y-%m-%d"),
@@ -30,7 +32,7 @@ def machine(program):
     }
 
 
-def mesher(out):
+def mesher(out: Path) -> Path:
     """gmsh with its version at hand. Every run asks for it, and gmsh takes ten times as long to say it as a small run."""
     script = (out / "gmsh").resolve()
     version = said("gmsh", "--version")
@@ -39,7 +41,7 @@ def mesher(out):
     return script
 
 
-def pin(cores=None):
+def pin(cores: set[int] | None = None) -> set[int] | None:
     """Keeps this process and all that it starts on some cores, or on one; returns those before. Linux only."""
     if not hasattr(os, "sched_setaffinity"):
         return None

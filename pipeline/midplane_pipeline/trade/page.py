@@ -3,6 +3,7 @@
 import argparse
 import json
 from pathlib import Path
+from typing import Any
 
 from midplane_pipeline.draw.page_text import page_text
 
@@ -35,7 +36,7 @@ from .tables import (
 )
 
 
-def point_rows(scene):
+def point_rows(scene: dict[str, Any]) -> Any:
     """The rows of the table of all points, and their classes."""
     chosen = {tuple(row["settings"]) for row in scene["front"]}
     rows, classes = [], []
@@ -63,13 +64,13 @@ BENCHES = {
 }
 
 
-def benches(folder):
+def benches(folder: Path) -> dict[str, str]:
     """Output of the benches beside the campaign, by heading."""
     files = {title: folder / f"{name}.txt" for name, title in BENCHES.items()}
     return {title: file.read_text() for title, file in files.items() if file.is_file()}
 
 
-def build(data, out):
+def build(data: dict[str, Any], out: Path) -> None:
     """Writes the page."""
     page = Page("midplane: speed against accuracy")
     m = data["machine"]
@@ -155,7 +156,7 @@ def build(data, out):
     page.write(out / "trade.html")
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("data", type=Path, help="results/trade/trade.json")

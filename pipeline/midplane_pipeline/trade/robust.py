@@ -10,19 +10,21 @@ import json
 import os
 import re
 import subprocess
+from collections.abc import Callable
+from typing import Any
 
 from midplane_pipeline.places import ROOT
 
 from .front import label
 from .history import read_history
-from .move import moved, offset, turn
+from .move import Move, moved, offset, turn
 from .scenes import settings
 from .turn import Turn, taken
 
 SEEDS = (1, 2, 3)
 
 
-def put(scene, key, value):
+def put(scene: Any, key: str, value: Any) -> None:
     """Sets a value of a scene: a path with dots, or a JSON pointer."""
     names = key[1:].split("/") if key.startswith("/") else key.split(".")
     at = scene
@@ -34,7 +36,7 @@ def put(scene, key, value):
 class Front:
     """The points of a front with meshes that can be moved."""
 
-    def __init__(self, campaign, rows):
+    def __init__(self, campaign: Any, rows: list[dict[str, Any]]) -> None:
         self.campaign, self.scene, self.rows = campaign, campaign.scene, rows
         self.here = campaign.out / "robust"
         self.settings = [settings(self.scene, row["labels"]) for row in rows]
@@ -46,7 +48,7 @@ class Front:
             mesh = [campaign.program, "mesh", ROOT / self.scene.folder, "-q", "-o", folder, *sets]
             subprocess.run(mesh, check=True)
 
-    def moved(self, k, name, move):
+    def moved(self, k: int, name: str, move: Callable[[str], Move]) -> dict[str, Any]:
         """The subdomains of a point with meshes moved by move(side) and written under a name."""
         subdomains = {}
         for side in self.scene.sides:
@@ -57,14 +59,14 @@ class Front:
             subdomains[side] = {"msh": path, "material": self.text["subdomains"][side]["material"]}
         return {"subdomains": subdomains}
 
-    def others(self, k):
+    def others(self, k: int) -> dict[str, Any]:
         """The settings of a point that are not those of its meshes."""
         return {key: v for key, v in self.settings[k].items() if not key.startswith("subdomains.")}
 
-    def offsets(self):
+    def offsets(self) -> list[list[float | None]]:
         """The errors of every point with the nodes moved, one for every seed."""
 
-        def of(k, seed):
+        def of(k: int, seed: int) -> dict[str, Any]:
             edges = {side: self.settings[k][f"subdomains.{side}.parameters.edges"] for side in self.scene.sides}
             name = self.scene.name
             return self.moved(k, f"seed{seed}", lambda side: offset(name, edges[side], seed, side)) | self.others(k)
@@ -73,7 +75,7 @@ class Front:
         errors = [row["error"] for row in self.campaign.study("offsets", points, self.scene.measures)]
         return [errors[k : k + len(SEEDS)] for k in range(0, len(errors), len(SEEDS))]
 
-    def turned(self):
+    def turned(self) -> tuple[int, list[float | None]]:
         """The angle, and the error of every point of the scene turned by it."""
         scenes = []
         for k in range(len(self.rows)):
@@ -107,7 +109,7 @@ class Front:
             result.append(max(errors) if row["status"] == "done" and None not in errors else None)
         return turned.degrees, result
 
-    def instructions(self):
+    def instructions(self) -> tuple[str, list[float | None]]:
         """The counter that was there, and the instructions of every point, in billions."""
         name, count = counter()
         counted = []
@@ -120,14 +122,14 @@ class Front:
         return name, counted
 
 
-def perf(command):
+def perf(command: list[Any]) -> float | None:
     """Instructions of a command in user space, by the processor's own counter."""
     done = subprocess.run(["perf", "stat", "-x,", "-e", "instructions:u", *command], capture_output=True, text=True)
     found = re.search(r"^(\d+),[^\n]*instructions", done.stderr, re.MULTILINE)
     return float(found[1]) / 1e9 if found else None
 
 
-def valgrind(command):
+def valgrind(command: list[Any]) -> float | None:
     """The same by simulation, on the processor that valgrind imitates."""
     tool = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"]
     done = subprocess.run([*tool, *command], capture_output=True, text=True)
@@ -135,7 +137,7 @@ def valgrind(command):
     return float(found[1].replace(",", "")) / 1e9 if found else None
 
 
-def counter():
+def counter() -> tuple[str, Callable[[list[Any]], float | None] | None]:
     """The first counter that works here: its name and what counts."""
     for name, count in (("perf", perf), ("valgrind", valgrind)):
         try:
@@ -146,7 +148,7 @@ def counter():
     return "none", None
 
 
-def robustness(campaign, rows):
+def robustness(campaign: Any, rows: list[dict[str, Any]]) -> dict[str, Any]:
     """All of it for a front; written to robust.csv as well."""
     front = Front(campaign, rows)
     offsets, (degrees, turned), (name, counted) = front.offsets(), front.turned(), front.instructions()

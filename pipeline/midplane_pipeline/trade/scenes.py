@@ -5,7 +5,11 @@ files have it. `ratio` is edges of A over edges of B; where it changes, their pr
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
+
+Settings = dict[str, Any]  # values by key
 
 ELEMENTS = {"T3": (1, 1), "Q4": (1, 0), "T6": (2, 1), "Q8": (2, 0)}
 RATIOS = {"own": None, "1:1": 1.0, "2:3": 2 / 3, "1:4": 0.25, "1:10": 0.1}
@@ -19,35 +23,36 @@ class Scene:
     folder: str
     case: str
     joint: str
-    sides: tuple  # names of the subdomains A and B
-    counts: tuple  # per side: parameter -> value in its .geo
-    measures: dict
-    errors: tuple  # the measures that decide: the largest of their errors is the error of a run
-    refinements: tuple  # levels, 1 is that of the scene's own files
-    settings: dict = field(default_factory=dict)
-    knobs: dict = field(default_factory=dict)  # further knobs: name -> {label: settings}
+    sides: tuple[str, str]  # names of the subdomains A and B
+    counts: tuple[dict[str, int], dict[str, int]]  # per side: parameter -> value in its .geo
+    measures: dict[str, dict[str, Any]]
+    errors: tuple[str, ...]  # the measures that decide: the largest of their errors is the error of a run
+    refinements: tuple[float, ...]  # levels, 1 is that of the scene's own files
+    settings: Settings = field(default_factory=dict)
+    knobs: dict[str, dict[str, Settings]] = field(default_factory=dict)  # further knobs: name -> {label: settings}
     floor: float = 0.0  # what the reference is uncertain by, relative
     nonlinear: bool = False
-    steps: tuple = ()  # (key, increments in the scene's file) of the steps that have several
-    without: tuple = ()  # (knob, label) that would take hours; the initial tangent then neither
-    even: tuple = ()  # parameters that must be even
-    swept: tuple = ()  # of a scene whose runs are long: the knobs that are swept, each point once; all if empty
-    usual: dict = field(default_factory=dict)  # labels of its reference setting that are its own
-    plotted: tuple = ()  # curves: (title, x column, y column) of the history
+    steps: tuple[tuple[str, int], ...] = ()  # (key, increments in the scene's file) of the steps that have several
+    without: tuple[tuple[str, str], ...] = ()  # (knob, label) that would take hours; the initial tangent then neither
+    even: tuple[str, ...] = ()  # parameters that must be even
+    swept: tuple[str, ...] = ()  # of a scene whose runs are long: the knobs that are swept, each point once; all if empty
+    usual: dict[str, str] = field(default_factory=dict)  # labels of its reference setting that are its own
+    plotted: tuple[tuple[str, str, str], ...] = ()  # curves: (title, x column, y column) of the history
 
 
-def rounded(value, even):
+def rounded(value: float, even: bool) -> int:
     """A count of at least one, or an even one."""
     step = 2 if even else 1
     return max(step, step * round(value / step))
 
 
-def mesh(scene, refinement=1.0, ratio="own", element="Q8"):
+def mesh(scene: Scene, refinement: float = 1.0, ratio: str = "own", element: str = "Q8") -> Settings:
     """Settings of a mesh."""
     order, triangles = ELEMENTS[element]
     own = scene.counts[0]["edges"] / scene.counts[1]["edges"]
-    factor = 1.0 if RATIOS[ratio] is None else math.sqrt(RATIOS[ratio] / own)
-    settings = {}
+    wanted = RATIOS[ratio]
+    factor = 1.0 if wanted is None else math.sqrt(wanted / own)
+    settings: Settings = {}
     for side, counts, of_side in zip(scene.sides, scene.counts, (factor, 1 / factor), strict=True):
         for name, count in counts.items():
             value = rounded(count * refinement * of_side, f"{side}.{name}" in scene.even)
@@ -61,15 +66,15 @@ def mesh(scene, refinement=1.0, ratio="own", element="Q8"):
     return settings
 
 
-def coupling(scene, kind, quadrature="gauss"):
+def coupling(scene: Scene, kind: str, quadrature: str = "gauss") -> Settings:
     """Settings of a coupling."""
     return {f"interfaces.{scene.joint}.coupling": kind, f"interfaces.{scene.joint}.quadrature": quadrature}
 
 
-def knobs(scene):
+def knobs(scene: Scene) -> dict[str, dict[str, Any]]:
     """All knobs of a scene: name -> {label: settings}; the first label of each is the reference setting."""
     coarse_to_fine = {f"{d:g}": d for d in scene.refinements}
-    table = {
+    table: dict[str, dict[str, Any]] = {
         "refinement": coarse_to_fine,
         "element": {name: name for name in ELEMENTS},
         "ratio": {name: name for name in RATIOS},
@@ -96,7 +101,7 @@ def knobs(scene):
         table["tolerance"] = {t: {"solution.tolerance": float(t)} for t in ("1e-8", "1e-3", "1e-4", "1e-6", "1e-10", "1e-12")}
         factors = {"1": 1, "0.125": 0.125, "0.25": 0.25, "0.5": 0.5, "2": 2, "4": 4}
 
-        def increments(factor):
+        def increments(factor: float) -> Settings:
             return {key: max(1, math.ceil(n * factor)) for key, n in scene.steps}
 
         table["path_tolerance"] = {t: {"solution.path_tolerance": float(t)} for t in ("1e-3", "1e-1", "1e-2", "1e-4")}
@@ -106,7 +111,7 @@ def knobs(scene):
     return table | scene.knobs
 
 
-def reference(scene):
+def reference(scene: Scene) -> dict[str, str]:
     """The label of every knob at the reference setting."""
     usual = REFERENCE | scene.usual
     return {name: usual.get(name, next(iter(values))) for name, values in knobs(scene).items()}
@@ -115,10 +120,10 @@ def reference(scene):
 REFERENCE = {"refinement": "1", "element": "Q8", "ratio": "own"}
 
 
-def settings(scene, labels):
+def settings(scene: Scene, labels: Mapping[str, str]) -> Settings:
     """The settings of labels {knob: label}; knobs that are not named are at their reference."""
     table = knobs(scene)
-    chosen = reference(scene) | labels
+    chosen = reference(scene) | dict(labels)
     result = dict(scene.settings)
     result |= mesh(scene, table["refinement"][chosen["refinement"]], chosen["ratio"], chosen["element"])
     for name, label in chosen.items():
@@ -127,12 +132,12 @@ def settings(scene, labels):
     return result
 
 
-def last(of, reference):
+def last(of: str, reference: float) -> dict[str, Any]:
     """A measure: the last value, beside a reference."""
     return {"take": "last", "of": of, "reference": reference}
 
 
-def traction(normal, tangential):
+def traction(normal: Any, tangential: Any) -> dict[str, Any]:
     """The L2 error of the tractions of the joint."""
     return {"take": "error", "field": "traction", "of": "joint", "exact": [normal, tangential]}
 

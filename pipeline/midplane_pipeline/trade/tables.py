@@ -4,35 +4,39 @@ A table is a head and rows of cells; a cell is a text, or a text and the number 
 
 import math
 import statistics
+from typing import Any
 
 from .front import TARGETS, common, fastest_within, label, next_knob, spread
+
+Cell = str | tuple[str, float]  # a text, or a text and the number to sort by
+Table = tuple[list[str], list[list[Cell]]]  # head and rows
 
 STAGES = ("read meshes", "bind", "assemble", "order", "factor", "solve", "recover", "write")
 COMMON = ["error", "setting", "dofs", "time / draft", "next knob"]
 
 
-def cell(value, digits=3):
+def cell(value: float | None, digits: int = 3) -> Cell:
     """A number, or nothing."""
     return ("", math.inf) if value is None else (f"{value:.{digits}g}", float(value))
 
 
-def percent(value, digits=2):
+def percent(value: float | None, digits: int = 2) -> Cell:
     """A share as a cell."""
     return ("failed", math.inf) if value is None else (f"{100 * value:.{digits}g} %", value)
 
 
-def seconds(value):
+def seconds(value: float) -> Cell:
     """A time as a cell."""
     return (f"{value:.4f}" if value < 1 else f"{value:.2f}", value)
 
 
-def relative(time, scene):
+def relative(time: float, scene: dict[str, Any]) -> float | None:
     """Time over that of `draft`."""
     draft = next((row for row in scene["presets"] if row["labels"]["accuracy"] == "draft"), None)
     return time / draft["time"] if draft else None
 
 
-def targets_table(scenes):
+def targets_table(scenes: dict[str, Any]) -> Table:
     """For every target and scene: the fastest setting measured, and what the next digit takes."""
     rows = []
     for target in TARGETS:
@@ -48,12 +52,12 @@ def targets_table(scenes):
     return ["error", "scene", "setting", "dofs", "time [s]", "time / draft", "for one digit more"], rows
 
 
-def reaches(scene, target):
+def reaches(scene: dict[str, Any], target: float) -> bool:
     """True if some refinement and element is within a target."""
     return fastest_within([row for row in scene["points"] if row["phase"] == "factorial"], target) is not None
 
 
-def common_table(scenes):
+def common_table(scenes: dict[str, Any]) -> Table:
     """One setting for all scenes: for every target the refinement and element that are within it everywhere."""
     rows = []
     for target in TARGETS:
@@ -63,7 +67,7 @@ def common_table(scenes):
             continue
         (refinement, element), chosen = found
         dofs = [row["dofs"] for row in chosen.values()]
-        times = [relative(row["time"], scenes[name]) for name, row in chosen.items()]
+        times = [relative(row["time"], scenes[name]) or math.nan for name, row in chosen.items()]
         following = common(scenes, target / 10)
         if following is None:
             short = [name for name, scene in scenes.items() if not reaches(scene, target / 10)]
@@ -77,7 +81,7 @@ def common_table(scenes):
     return COMMON, rows
 
 
-def presets_table(scenes):
+def presets_table(scenes: dict[str, Any]) -> Table:
     """Every scene with every preset."""
     rows = [
         [
@@ -95,15 +99,15 @@ def presets_table(scenes):
     return ["scene", "preset", "error", "of every number", "dofs", "time [s]", "time / draft"], rows
 
 
-def front_table(scene):
+def front_table(scene: dict[str, Any]) -> Table:
     """The points of a front, with the wall clock of their stages."""
     rows = []
     for row in scene["front"]:
         stages = ", ".join(f"{s} {1e3 * row['stages'][s]:.0f}" for s in STAGES if row["stages"].get(s, 0) >= 0.0005)
         times = [seconds(row["time"]), seconds(statistics.median(row["times"])), percent(spread(row))]
         rows.append([label(row), percent(row["error"]), cell(row["dofs"], 7), *times, seconds(row["wall"]), stages])
-    times = ["fastest [s]", "median [s]", "spread", "wall clock [s]", "stages, wall clock [ms]"]
-    return ["setting", "error", "dofs", *times], rows
+    head = ["fastest [s]", "median [s]", "spread", "wall clock [s]", "stages, wall clock [ms]"]
+    return ["setting", "error", "dofs", *head], rows
 
 
 REPEATED = (
@@ -113,7 +117,7 @@ REPEATED = (
 )
 
 
-def repeatability_table(scenes):
+def repeatability_table(scenes: dict[str, Any]) -> Table:
     """Agreement of two measurements of every scene."""
     rows = []
     for name, scene in scenes.items():
@@ -127,13 +131,13 @@ def repeatability_table(scenes):
     return [*head, "errors at which they agree"], rows
 
 
-def spread_text(scenes):
+def spread_text(scenes: dict[str, Any]) -> str:
     """Scenes whose times vary by more than a tenth."""
     wide = [name for name, scene in scenes.items() if scene["repeatability"]["spread"] > 0.1]
     return f"The spread is above 10 % on {', '.join(wide)}." if wide else "The spread is nowhere above 10 %."
 
 
-def robust_text(robust):
+def robust_text(robust: dict[str, Any]) -> str:
     """The sentence above the table of a robust front."""
     how = {
         "perf": "counted by the processor (perf)",
@@ -148,7 +152,7 @@ def robust_text(robust):
     )
 
 
-def robust_table(robust):
+def robust_table(robust: dict[str, Any]) -> Table:
     """Errors with nodes moved and with the scene turned, and instructions."""
     rows = []
     for point in robust["points"]:
@@ -162,7 +166,7 @@ def robust_table(robust):
     return ["setting", "error", *seeds, "largest / smallest", "turned − straight", "10⁹ instructions"], rows
 
 
-def features_table(features):
+def features_table(features: list[dict[str, Any]]) -> Table:
     """Time and memory of the shear box with every feature."""
     rows = [
         [
@@ -181,7 +185,7 @@ def features_table(features):
     return ["feature", *times, "MB", "iterations"], rows
 
 
-def refinements_text(d):
+def refinements_text(d: dict[str, Any]) -> str:
     """A study against single runs, in a sentence."""
     study, runs = d["processor"]
     return (
@@ -191,18 +195,18 @@ def refinements_text(d):
     )
 
 
-def penalty_claim(rows):
+def penalty_claim(rows: list[dict[str, Any]]) -> list[str]:
     """The claim about the couplings, from the data."""
-    pairs = {}
+    pairs: dict[Any, dict[str, Any]] = {}
     for row in rows:
         pairs.setdefault((row["stiffness"], row["element"], row["edges"]), {})[row["coupling"]] = row
     stiff = [p for p in pairs.values() if len(p) == 2 and p["projected"]["stiffness_number"] and p["projected"]["stiffness_number"] > 1]
     soft = [p for p in pairs.values() if len(p) == 2 and p not in stiff]
 
-    def ratios(of, name):
+    def ratios(of: list[Any], name: str) -> list[float]:
         return [p["projected"][name] / p["pointwise"][name] for p in of if p["projected"][name] and p["pointwise"][name]]
 
-    def said(of, where):
+    def said(of: list[Any], where: str) -> str:
         if not of:
             return f"{where}: not measured."
         errors, times = ratios(of, "error"), ratios(of, "time")
@@ -214,7 +218,7 @@ def penalty_claim(rows):
     return [said(stiff, "K_N h/E above 1"), said(soft, "K_N h/E up to 1")]
 
 
-def coupling_claim(scenes):
+def coupling_claim(scenes: dict[str, Any]) -> list[str]:
     """Cost and error of the couplings on every scene at its reference setting."""
     lines = []
     for name, scene in scenes.items():

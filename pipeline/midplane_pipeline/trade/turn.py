@@ -5,6 +5,8 @@ rollers can turn by a right angle only; one that is held in both directions wher
 
 import math
 import re
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 KNOWN = {"name", "increments", "control", "fix", "displace", "load"}
 
@@ -12,13 +14,13 @@ KNOWN = {"name", "increments", "control", "fix", "displace", "load"}
 class Turn:
     """The turn of a scene by 30 degrees, or by 90 if it stands on rollers."""
 
-    def __init__(self, scene):
+    def __init__(self, scene: dict[str, Any]) -> None:
         held = [directions for step in scene["steps"] for directions in supports(step).values()]
         self.degrees = 30 if all(len(directions) == 2 for directions in held) else 90
         angle = math.radians(self.degrees)
         self.cosine, self.sine = (0.0, 1.0) if self.degrees == 90 else (math.cos(angle), math.sin(angle))
 
-    def vector(self, x, y):
+    def vector(self, x: Any, y: Any) -> list[Any]:
         """R (x, y), numbers or formulas."""
         c, s = self.cosine, self.sine
         if isinstance(x, str) or isinstance(y, str):
@@ -26,11 +28,11 @@ class Turn:
             return [f"({c!r})*({x})-({s!r})*({y})", f"({s!r})*({x})+({c!r})*({y})"]
         return [c * x - s * y, s * x + c * y]
 
-    def back(self, x, y):
+    def back(self, x: Any, y: Any) -> tuple[float, float]:
         """Rᵀ (x, y)."""
         return self.cosine * x + self.sine * y, self.cosine * y - self.sine * x
 
-    def formula(self, value):
+    def formula(self, value: Any) -> Any:
         """A formula in the old x and y as one in the new."""
         if not isinstance(value, str):
             return value
@@ -40,7 +42,7 @@ class Turn:
         }
         return re.sub(r"\b[xy]\b", lambda name: old[name[0]], value)
 
-    def step(self, step):
+    def step(self, step: dict[str, Any]) -> dict[str, Any]:
         """A step of the scene."""
         if strange := set(step) - KNOWN:
             raise ValueError(f"a step with {', '.join(sorted(strange))} is not turned yet")
@@ -58,21 +60,21 @@ class Turn:
         kept = {key: step[key] for key in ("name", "increments", "control") if key in step}
         return kept | {"fix": fix, "displace": displace, "load": load}
 
-    def load(self, load):
+    def load(self, load: dict[str, Any]) -> dict[str, Any]:
         """A load; pressures stay what they are."""
         return {kind: self.formula(value) if kind == "pressure" else self.vector(*value) for kind, value in load.items()}
 
-    def measure(self, measure):
+    def measure(self, measure: dict[str, Any]) -> dict[str, Any]:
         """A measure of a field; (n, t) components turn with the joint."""
         return measure | {"exact": [self.formula(value) for value in measure["exact"]]}
 
-    def columns(self, probe):
+    def columns(self, probe: str) -> list[str]:
         """Columns that the history must have for a probe: both components of a displacement; reactions are there."""
         if displacement := re.fullmatch(r"(.+\.displacement_)[xy]", probe):
             return [displacement[1] + name for name in "xy"]
         return [] if probe.startswith("reaction:") else [probe]
 
-    def along(self, history, probe):
+    def along(self, history: Mapping[str, Sequence[float]], probe: str) -> Sequence[float]:
         """The values of a probe along a history, in the old axes."""
         if component := re.fullmatch(r"(.+\.displacement_|reaction:.+:)([xy])", probe):
             pairs = zip(history[component[1] + "x"], history[component[1] + "y"], strict=True)
@@ -80,9 +82,9 @@ class Turn:
         return history[probe]
 
 
-def supports(step):
+def supports(step: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """{group: {direction: displacement}} of a step."""
-    held = {}
+    held: dict[str, dict[str, Any]] = {}
     for group, directions in step.get("fix", {}).items():
         held.setdefault(group, {}).update({direction: 0.0 for direction in directions})
     for group, given in step.get("displace", {}).items():
@@ -90,6 +92,6 @@ def supports(step):
     return held
 
 
-def taken(measure, values):
+def taken(measure: dict[str, Any], values: Sequence[float]) -> float:
     """The number that a measure takes from the values of its column."""
     return values[-1] if measure["take"] == "last" else max(values, key=abs)

@@ -4,6 +4,8 @@ A peer brings the stiffness of the bodies `k` (rows and columns as its `dof` num
 which makes an object whose `solve(data, b)` factors the values `data` on the pattern of `matrix` and solves. A Newton
 iteration factors anew, symbolic analysis is done once where the peer's solver lets that be."""
 
+from typing import Any
+
 import numpy as np
 from scipy.sparse import csr_matrix
 
@@ -133,7 +135,8 @@ def friction(box, solver, clock, increments=common.INCREMENTS):
                 break
             correction = factor.solve(fill(tangents), residual)
             solves += 1
-            step, best = 1.0, None
+            step = 1.0
+            best: Any = None
             for _ in range(6):
                 there = trial.copy()
                 there[box.free] += step * correction

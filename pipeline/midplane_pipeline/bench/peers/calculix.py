@@ -52,8 +52,9 @@ def model(layers, points, cells, at, behaviour):
     for name, nodes in at.items():
         yield f"*NSET, NSET={name}\n" + table((node + 1, "") for node in nodes)
     yield "*NSET, NSET=PUSHED\nupper.left, upper.right"
-    yield surface("SIDE_A", *layers[0], 1)
-    yield surface("SIDE_B", *layers[1], 1 + len(layers[0][1]))
+    (points_a, cells_a), (points_b, cells_b) = layers
+    yield surface("SIDE_A", points_a, cells_a, 1)
+    yield surface("SIDE_B", points_b, cells_b, 1 + len(cells_a))
     yield f"*MATERIAL, NAME=ROCK\n*ELASTIC\n{common.YOUNG}, {common.POISSON}"
     yield "*SOLID SECTION, ELSET=ROCK, MATERIAL=ROCK\n1.0"
     yield "*SURFACE INTERACTION, NAME=JOINT"
@@ -101,7 +102,7 @@ def run(deck):
         total = job.with_suffix(".dat").read_text().split("PUSHED", 1)[1].splitlines()[2].split()
         steps = job.with_suffix(".cvg").read_text().splitlines()
     iterations = sum(re.match(r" +\d+ ", line) is not None for line in steps)
-    version = re.search(rb"Version ([\d.]+)", fields).group(1).decode()
+    version = re.findall(rb"Version ([\d.]+)", fields)[0].decode()
     return version, column(fields, "DISP")[:, :2], column(fields, "STRESS"), float(total[0]), iterations
 
 

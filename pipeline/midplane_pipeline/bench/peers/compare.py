@@ -15,10 +15,13 @@ import os
 import shutil
 import subprocess
 import time
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from midplane_pipeline.bench import scenes
+from midplane_pipeline.bench.scenes import Row
 from midplane_pipeline.places import PIPELINE
 
 # of the peers' answers: the coupling is the peers' own `pointwise`; `projected` is another discretisation
@@ -30,8 +33,8 @@ class Peer(NamedTuple):
     """Another program: its module, options, scenes, and how it is had."""
 
     module: str
-    options: list
-    scenes: tuple
+    options: list[str]
+    scenes: tuple[str, ...]
     install: str
     needs: str | None = None  # module of another name
     program: str | None = None
@@ -49,7 +52,7 @@ PEERS = {
 }
 
 
-def interpreter(python, wanted):
+def interpreter(python: str, wanted: Peer) -> str | None:
     """The first Python that has a peer's modules; none where these or its program are missing."""
     if wanted.program and not shutil.which(wanted.program):
         return None
@@ -60,7 +63,7 @@ def interpreter(python, wanted):
     return None
 
 
-def environment(python, module, out, threads):
+def environment(python: str, module: str, out: Path, threads: int) -> dict[str, str]:
     """Variables of a peer's process: threads, the package, and MKL where NGSolve finds it."""
     names = ("OMP_NUM_THREADS", "MKL_NUM_THREADS", "NGS_NUM_THREADS")
     variables = os.environ | {name: str(threads) for name in names} | {"PYTHONPATH": str(PIPELINE)}
@@ -77,10 +80,10 @@ def environment(python, module, out, threads):
     return variables | {"LD_LIBRARY_PATH": f"{links.resolve()}:{libraries}"}
 
 
-def peer(python, name, problem, here, out, threads, limit):
+def peer(python: str, name: str, problem: str, here: Path, out: Path, threads: int, limit: float) -> Row:
     """A run of a peer as a row."""
     wanted = PEERS[name]
-    command = [python, "-m", f"midplane_pipeline.bench.peers.{wanted.module}", problem, here, here / "peer.vtu", *wanted.options]
+    command: list[str | Path] = [python, "-m", f"midplane_pipeline.bench.peers.{wanted.module}", problem, here, here / "peer.vtu", *wanted.options]
     variables = environment(python, wanted.module, out, threads)
     start = time.perf_counter()
     found = subprocess.run(command, env=variables, capture_output=True, text=True, timeout=limit)
@@ -105,7 +108,7 @@ def peer(python, name, problem, here, out, threads, limit):
     }
 
 
-def ours(program, scene, coupling):
+def ours(program: Path, scene: Path, coupling: str) -> Row:
     """A run of midplane as a row."""
     found = scenes.run(program, scene, f"--set=interfaces.joint.coupling={coupling}")
     names = ("dofs", "seconds", "iterations", "iteration", "peak_bytes_per_dof", "answer", "traction")
@@ -113,10 +116,11 @@ def ours(program, scene, coupling):
     return row | {"without_imports": row["seconds"], "threads": os.cpu_count()}
 
 
-def compare(options, python, size, problem):
+def compare(options: argparse.Namespace, python: str, size: str, problem: str) -> list[Row]:
     """The fastest turn of every program, with the answers compared."""
     here = scenes.folder(options.program.resolve(), size, options.out)
-    runs = {f"midplane {c}": lambda c=c: ours(options.program.resolve(), here / f"{problem}.json", c) for c in ("projected", "pointwise")}
+    own = options.program.resolve(), here / f"{problem}.json"
+    runs: dict[str, Callable[[], Row]] = {f"midplane {c}": partial(ours, *own, c) for c in ("projected", "pointwise")}
     for name, wanted in PEERS.items():
         if problem in wanted.scenes and name not in options.skip:
             chosen = interpreter(python, wanted)
@@ -124,8 +128,8 @@ def compare(options, python, size, problem):
                 print(f"{name}: skipped, not installed ({wanted.install})")
                 continue
             for threads in options.threads:
-                runs[f"{name} {threads}"] = lambda n=name, p=chosen, t=threads: peer(p, n, problem, here, options.out, t, options.limit)
-    fastest = {}
+                runs[f"{name} {threads}"] = partial(peer, chosen, name, problem, here, options.out, threads, options.limit)
+    fastest: dict[str, Row] = {}
     for _ in range(options.repeat):
         for name, turn in list(runs.items()):
             try:
@@ -156,7 +160,7 @@ def compare(options, python, size, problem):
     return rows
 
 
-def agree(rows, where):
+def agree(rows: list[Row], where: str) -> None:
     """Ours have what every peer has, within its accuracy."""
     for row, other in itertools.product(rows[:2], rows[2:]):
         allowed = max(PROJECTED if row["program"].endswith("projected") else POINTWISE, other["accuracy"])
@@ -166,7 +170,7 @@ def agree(rows, where):
                 raise SystemExit(f"{where}: {what}: {two}")
 
 
-def main():
+def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path, help="target/release/midplane")
@@ -176,7 +180,7 @@ def main():
     parser.add_argument("--scenes", nargs="+", choices=("elastic", "friction"), default=["elastic", "friction"])
     parser.add_argument("--csv", default="peers.csv", help="name of the table in --out")
     parser.add_argument("--repeat", type=int, default=3)
-    everything = sorted({1, os.cpu_count()})
+    everything = sorted({1, os.cpu_count() or 1})
     parser.add_argument("--threads", nargs="+", type=int, default=everything, help="of the peers")
     parser.add_argument("--limit", type=float, default=900, help="seconds that one run may take")
     parser.add_argument("--skip", nargs="*", default=["ngsolve-umfpack"], choices=PEERS)

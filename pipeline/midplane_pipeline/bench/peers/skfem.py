@@ -22,6 +22,11 @@ except ImportError:
 clock.end("import")
 
 
+def has_pardiso():
+    """True if there is MKL PARDISO."""
+    return pypardiso is not None
+
+
 class Pardiso:
     """Analysis once, factor and solve for every call; symmetric positive definite matrices by their upper half."""
 

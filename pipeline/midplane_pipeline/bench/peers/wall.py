@@ -9,6 +9,7 @@ import json
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 from . import common
 
@@ -21,7 +22,7 @@ from skfem.helpers import ddot, sym_grad, trace
 from skfem.models.elasticity import lame_parameters
 
 from . import box
-from .skfem import Pardiso, SuperLu, pypardiso
+from .skfem import Pardiso, SuperLu, has_pardiso
 
 clock.end("import")
 
@@ -31,13 +32,18 @@ TOUCH = 1e-9
 class Wall:
     """The part of `box.Box` that Newton's method uses."""
 
+    k: Any
+    b: Any
+    weight: Any
+    free: Any
+
     blocks = box.Box.blocks
     pattern = box.Box.pattern
 
 
 def sides(bricks, points):
     """Sides of all bricks as (line, brick, outward sign, nodes in order): a line is an axis and a coordinate."""
-    found = {}
+    found: dict[tuple[int, float], list[Any]] = {}
     for brick, nodes in enumerate(bricks):
         for axis in (0, 1):
             x = points[nodes, axis]
@@ -80,7 +86,7 @@ def joints(bricks, points, dof, size):
 
 def main(scene_file, mesh_file, library="pardiso", most="1000000"):
     """The command."""
-    pardiso = library == "pardiso" and pypardiso is not None
+    pardiso = library == "pardiso" and has_pardiso()
     scene = json.loads(Path(scene_file).read_text())
     law, material = scene["interfaces"]["joints"]["law"], scene["materials"]["brick"]
     common.NORMAL_STIFFNESS, common.TANGENTIAL_STIFFNESS = law["normal_stiffness"], law["tangential_stiffness"]
@@ -167,7 +173,8 @@ def newton(wall, loads, solver, most):
             solves += 1
             if solves >= most:
                 return trial, solves
-            step, best = 1.0, None
+            step = 1.0
+            best: Any = None
             for _ in range(6):
                 there = trial.copy()
                 there[wall.free] += step * correction

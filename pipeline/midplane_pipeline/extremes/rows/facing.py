@@ -1,16 +1,18 @@
 """Rows on which side faces which: no common length, overlaps, gaps, arcs, directions, kinks."""
 
+from typing import Any
+
 import numpy as np
 
 from ..layers import KN, P, block, lame_rings, off, pressed, ring_under_pressure, two
 from ..msh import Mesh, arc, even, rectangle
-from ..row import row
+from ..row import Trial, row
 from ..scenes import relative
 from ..solutions import Patch
 
 
 @row("B22", "sides that touch at a point only, or not at all", "refused: no common length")
-def touching(t):
+def touching(t: Trial) -> None:
     for x, text in (((1.0, 2.0), "touch at (1.000000, 0.000000)"), ((1.5, 2.5), "5.000e-1 apart")):
         run = two(t, block((0, 1), (-0.5, 0), 4), block(x, (0, 0.5), 3))
         t.refused(f"b from x = {x[0]}", run, "no common length", text)
@@ -27,7 +29,7 @@ def touching(t):
     "A longer than B: 0 … 1 on 0.3 … 1.7",
     "the common 0.7 is coupled and said; the rest is free of traction",
 )
-def partial(t):
+def partial(t: Trial) -> None:
     a, b = block((0.3, 1.7), (-0.5, 0), 9, 3), block((0, 1), (0, 0.5), 7, 3)
     run = two(t, a, b, fix={"a.bottom": ["x", "y"], "b.left": ["x"]}).need()
     t.below(
@@ -54,7 +56,7 @@ def partial(t):
     "gap of 0.1 L, overlap of 0.1 L, small ones",
     "refused with size and place beyond 1e-3 L; within, no stress",
 )
-def apart(t):
+def apart(t: Trial) -> None:
     for gap, text in ((0.1, "gap of 1.000e-1"), (-0.1, "overlap of 1.000e-1"), (0.002, "gap of 2.000e-3")):
         t.refused(f"gap {gap:g}", two(t, block((0, 1), (-0.5, 0), 5), block((0, 1), (gap, 0.5), 8)), text, "near (")
     for gap in (9e-4, -9e-4):
@@ -72,8 +74,8 @@ def apart(t):
     "two polygons of one arc with different chords",
     "no load: tractions exactly 0; under pressure error falls with h²",
 )
-def arcs(t):
-    def rings(n, m, rows=3):
+def arcs(t: Trial) -> None:
+    def rings(n: Any, m: Any, rows: int = 3) -> dict[str, Any]:
         to = arc(np.pi / 2, np.pi / 2)
         a = rectangle(even(0, 1, n), even(1, 1.5, rows), "Q4", to)
         return {"a": a, "b": rectangle(even(0, 1, m), even(1.5, 2, rows), "Q4", to)}
@@ -97,12 +99,12 @@ def arcs(t):
 
 
 @row("B29", "either or both curves reversed, A and B swapped, clockwise cells", "the same result to 1e-13")
-def directions(t):
+def directions(t: Trial) -> None:
     patch = Patch()
     meshes = patch.meshes(7, 11, "Q4")
     base = t.program.run(patch.scene(), meshes).need()
 
-    def changed(body, curve=None, clockwise=False):
+    def changed(body: Any, curve: Any = None, clockwise: bool = False) -> Any:
         mesh = meshes[body]
         blocks = []
         for dimension, group, kind, nodes in mesh.blocks:
@@ -145,11 +147,11 @@ def directions(t):
     "kinks of 90°, 150° and 179.9° in a joint",
     "normals one-sided at the kink, forces balance to 1e-12 of the load",
 )
-def kinks(t):
+def kinks(t: Trial) -> None:
     for inner in (90.0, 150.0, 179.9, -90.0):
         turn = np.radians(180 - abs(inner)) * np.sign(inner)
 
-        def to(s, r, turn=turn):
+        def to(s: Any, r: Any, turn: Any = turn) -> tuple[Any, Any]:
             # a bent strip: beyond the mitre through the corner everything is turned by `turn`
             s, across = s - 1.0, r
             lean = np.tan(turn / 2)
@@ -158,7 +160,7 @@ def kinks(t):
             y = np.where(s <= 0, across, along * np.sin(turn) + across * np.cos(turn))
             return x, y
 
-        def strip(n, r):
+        def strip(n: Any, r: Any) -> Any:
             s = np.concatenate([even(0, 1, n), even(1, 2, n + 2)[1:]])
             mesh = rectangle(s, r, "Q4", to)
             mesh.corners = [int(np.flatnonzero(np.abs(mesh.points).max(1) < 1e-12)[0])]

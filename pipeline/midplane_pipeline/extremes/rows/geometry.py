@@ -1,9 +1,11 @@
 """Rows on the mesh of a joint: ratios, offsets, tiny edges, sizes and places."""
 
+from typing import Any
+
 import numpy as np
 
 from ..msh import even
-from ..row import Curve, row
+from ..row import Curve, Trial, row
 from ..scenes import relative
 from ..solutions import Bending, Patch, Strip
 
@@ -11,7 +13,7 @@ EPS = np.finfo(float).eps
 SHAPES = ("T3", "Q4", "T6", "Q8")
 
 
-def try_patch(t, what, patch, s_a, s_b, shape, limits, **joint):
+def try_patch(t: Trial, what: str, patch: Any, s_a: Any, s_b: Any, shape: str, limits: Any, **joint: Any) -> tuple[Any, Any]:
     """Runs a patch and claims both errors below their limits; the run and the errors."""
     run = t.program.run(patch.scene(**joint), patch.meshes(s_a, s_b, shape)).need()
     errors = patch.errors(run)
@@ -21,8 +23,10 @@ def try_patch(t, what, patch, s_a, s_b, shape, limits, **joint):
 
 
 @row("B1", "mesh ratio 1:1000 and 2:2000", "exact patch; segments = edges of A + edges of B − common nodes")
-def mesh_ratio(t):
-    ratios, u, tn = [1, 10, 100, 1000], [], []
+def mesh_ratio(t: Trial) -> None:
+    ratios = [1, 10, 100, 1000]
+    u: list[float] = []
+    tn: list[float] = []
     for m in ratios:
         for n, k in [(1, m), (m, 1), (7, m)]:
             run, errors = try_patch(t, f"case 1b, Q4, {n}:{k}", Patch(), n, k, "Q4", (1e-10, 1e-10))
@@ -60,7 +64,7 @@ def mesh_ratio(t):
     "nodes offset by d L, d = 1e-3 … 1e-16",
     "exact at every d; segments add up to the joint; continuous in d",
 )
-def offset_nodes(t):
+def offset_nodes(t: Trial) -> None:
     ds = [1e-3, 1e-6, 1e-9, 1e-12, 1.1e-13, 0.9e-13, 1e-14, 1e-16]
     if not t.quick:
         ds = [10.0**-i for i in range(3, 17)] + [1.1e-13, 0.9e-13]
@@ -87,7 +91,7 @@ def offset_nodes(t):
             run = t.program.run(strip.scene(), strip.meshes(8, s + 0.5, "Q4", (6, 5))).need()
             answers.append(np.concatenate([run.displacement("a"), run.displacement("b")]))
         # du/dd is of the size of u/L, and 1e-12 is left for rounding
-        steps.append(relative(*answers))
+        steps.append(relative(answers[0], answers[1]))
         t.below(f"d and 1.001 d, d = {d:g}: change of case 5b", steps[-1], 1e-2 * d + 1e-12)
     x = sorted(ds, reverse=True)
     t.curves.append(
@@ -103,7 +107,7 @@ def offset_nodes(t):
 
 
 @row("B3", "two nodes of one side 1e-12 L apart", "accepted as far as coordinates resolve it, or refused")
-def tiny_edge(t):
+def tiny_edge(t: Trial) -> None:
     for tiny in (1e-9, 1e-12):
         for shape in ("Q4", "T3"):
             s = np.insert(even(-0.5, 0.5, 4), 3, tiny)
@@ -121,7 +125,7 @@ def tiny_edge(t):
 
 
 @row("B4", "one edge on one side, one on both", "exact")
-def one_edge(t):
+def one_edge(t: Trial) -> None:
     for shape in SHAPES:
         for n in (1, 2):
             try_patch(t, f"case 1b, {shape}, 1:{n}", Patch(), 1, n, shape, (1e-12, 1e-12))
@@ -143,7 +147,7 @@ def one_edge(t):
 
 
 @row("B5", "coordinates × 1e-6 and × 1e6", "exact: every tolerance is relative to the length of the joint")
-def sizes(t):
+def sizes(t: Trial) -> None:
     for size in (1e-6, 1e6):
         for shape in SHAPES:
             patch = Patch(size=size, kn=2e5 / size, kt=5e4 / size)
@@ -155,15 +159,19 @@ def sizes(t):
     "origin 1e3 and 1e6 m away, size 1 m; 1e6 m away, size 1e-3 m",
     "limited by the coordinates: ε offset/h; warned of from ε offset/h > 1e-10",
 )
-def far_away(t):
-    offsets, u, tn = [], [], []
+def far_away(t: Trial) -> None:
+    offsets: list[float] = []
+    u: list[float] = []
+    tn: list[float] = []
     for offset, size in [(0.0, 1.0), (1e3, 1.0), (1e6, 1.0), (1e6, 1e-3)]:
         far(t, offset, size, offsets, u, tn)
 
 
 @row("B7", "origin 1e9 m away, size 1 m", "limited by the coordinates, and warned of")
-def very_far_away(t):
-    offsets, u, tn = [], [], []
+def very_far_away(t: Trial) -> None:
+    offsets: list[float] = []
+    u: list[float] = []
+    tn: list[float] = []
     for offset in (1e0, 1e2, 1e4, 1e6, 1e8, 1e9):
         far(t, offset, 1.0, offsets, u, tn)
     line = [EPS * offset * 8 for offset in offsets]
@@ -178,7 +186,7 @@ def very_far_away(t):
     )
 
 
-def far(t, offset, size, offsets, u, tn):
+def far(t: Trial, offset: Any, size: float, offsets: Any, u: Any, tn: Any) -> None:
     """A patch at a distance; coordinates resolve ε offset of the smallest edge h = size/8."""
     resolved = EPS * offset * 8 / size
     patch = Patch(size=size, kn=2e5 / size, kt=5e4 / size, origin=(offset, 0.7 * offset))

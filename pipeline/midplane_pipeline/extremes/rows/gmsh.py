@@ -2,12 +2,13 @@
 
 import json
 import stat
+from typing import Any
 
 import numpy as np
 
 from ..layers import FIX, KN, YOUNG, P, good, lame_rings, off, ring_under_pressure
 from ..msh import arc, even, rectangle
-from ..row import first_line, row
+from ..row import Trial, first_line, row
 from ..scenes import elastic, relative, scene
 
 GEO = """\
@@ -22,7 +23,7 @@ Physical Surface("body") = {{1}};
 """
 
 
-def drawn(place, a_more="", b_more="", b_z=0):
+def drawn(place: Any, a_more: str = "", b_more: str = "", b_z: float = 0) -> Any:
     """The good scene on two geometries, in a folder."""
     text, _ = good()
     place.mkdir(parents=True, exist_ok=True)
@@ -38,8 +39,8 @@ def drawn(place, a_more="", b_more="", b_z=0):
     "gmsh missing, failing, hanging, killed; paths with spaces, quotes and a newline",
     "message with gmsh's exit code and last lines; a time limit; no shell reads a path",
 )
-def mesher(t):
-    def call(place, *more):
+def mesher(t: Trial) -> None:
+    def call(place: Any, *more: Any) -> Any:
         return t.program.call(place, ["run", ".", "-o", "out", *more])
 
     base = call(drawn(t.program.place()))
@@ -49,18 +50,19 @@ def mesher(t):
     run = call(drawn(t.program.place(), b_more="Curv Loop(2) = {1};"))
     t.refused("a geometry that gmsh refuses", run, "b.geo", "gmsh ended with exit code 1", "yntax error")
 
-    def fake(place, script):
+    def fake(place: Any, script: Any) -> str:
         path = place / "fake"
         path.write_text(f"#!/bin/sh\ncase $1 in --version) echo 4.8.4 >&2; exit;; esac\n{script}\n")
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
         return str(path)
 
-    for what, script, code, *texts in [
-        ("ends with code 7", "echo no licence >&2; exit 7", 2, "exit code 7", "no licence"),
-        ("writes nothing", "exit 0", None),
-        ("hangs", "exec sleep 50", 4, "2 s"),
-        ("is killed", "kill -9 $$", 4, "signal"),
-    ]:
+    fakes: list[tuple[str, str, int | None, list[str]]] = [
+        ("ends with code 7", "echo no licence >&2; exit 7", 2, ["exit code 7", "no licence"]),
+        ("writes nothing", "exit 0", None, []),
+        ("hangs", "exec sleep 50", 4, ["2 s"]),
+        ("is killed", "kill -9 $$", 4, ["signal"]),
+    ]
+    for what, script, code, texts in fakes:
         place = drawn(t.program.place())
         run = call(place, "--gmsh", fake(place, script), "--gmsh-limit", "2")
         if code is None:
@@ -88,8 +90,8 @@ def mesher(t):
     "mesh out of the plane; curved mid-nodes; mixed and recombined cells",
     "z refused; the others exact",
 )
-def gmsh_options(t):
-    def call(place):
+def gmsh_options(t: Trial) -> None:
+    def call(place: Any) -> Any:
         return t.program.call(place, ["run", ".", "-o", "out"])
 
     t.refused("z = 0.1", call(drawn(t.program.place(), b_z=0.1)), "z")

@@ -1,10 +1,12 @@
 """Rows on joints that meet: T, X, and a slit inside one body."""
 
+from typing import Any
+
 import numpy as np
 
 from ..layers import YOUNG, P, block, off, pressed
 from ..msh import Mesh, even, rectangle
-from ..row import row
+from ..row import Trial, row
 from ..scenes import elastic, scene
 
 
@@ -13,7 +15,7 @@ from ..scenes import elastic, scene
     "T-junction: one long side against two blocks",
     "exact; both pairs integrated, no double count at the joint",
 )
-def t_junction(t):
+def t_junction(t: Trial) -> None:
     for shape in ("Q4", "T6"):
         meshes = {
             "a": block((0, 1), (-0.5, 0), 7, shape=shape),
@@ -21,10 +23,11 @@ def t_junction(t):
             "c": block((0.45, 1), (0, 0.5), 4, shape=shape),
         }
         fix = {"a.bottom": ["y"], "a.left": ["x"], "b.left": ["x"], "c.right": ["x"]}
-        for name, joints in {
+        layouts: dict[str, dict[str, Any]] = {
             "one interface": {"joint": ("a.top", ["b.bottom", "c.bottom"])},
             "two interfaces": {"joint": ("a.top", "b.bottom"), "other": ("a.top", "c.bottom")},
-        }.items():
+        }
+        for name, joints in layouts.items():
             run = t.program.run(pressed("abc", joints, fix, ["b.top", "c.top"]), meshes).need()
             t.below(f"{shape}, {name}: traction", max(off(run, joint) for joint in joints), 1e-11)
             length = sum(np.diff(run.segments(joint), axis=1).sum() for joint in joints)
@@ -36,7 +39,7 @@ def t_junction(t):
     "X-junction: four blocks that meet at a point; pairs that share a node; secondary nodes that coincide",
     "constant stress is exact, the four copies of the node are independent",
 )
-def x_junction(t):
+def x_junction(t: Trial) -> None:
     sx, sy, k = -3.0, -7.0, 1e5
     edges = {
         "sw": ((0, 0.5), (0, 0.5), 3),
@@ -68,9 +71,9 @@ def x_junction(t):
         run = t.program.run(text, meshes).need()
         stress = max(np.abs(run.stress(name) - [sx, sy, 0.0]).max() for name in edges) / abs(sy)
         t.below(f"{shape}: stress", stress, 1e-9)
-        joints = sorted(path.stem for path in (run.out / "midplane").glob("joints*.vtu"))
-        t.equal(f"{shape}: interfaces", len(joints), 4)
-        for name in joints:
+        found = sorted(path.stem for path in (run.out / "midplane").glob("joints*.vtu"))
+        t.equal(f"{shape}: interfaces", len(found), 4)
+        for name in found:
             upright = {place[1] for place in name.split("~")[1:]} == {"w", "e"}
             error = np.abs(run.traction(name) - [sx if upright else sy, 0.0]).max() / abs(sy)
             t.below(f"{shape}: traction of {name}", error, 1e-9)
@@ -85,7 +88,7 @@ def x_junction(t):
         "c": block((0.5, 1), (0, 0.5), 3),
     }
     fix = {"a.bottom": ["y"], "a.left": ["x"], "b.left": ["x"], "c.right": ["x"]}
-    for name, joints in {
+    pairs: dict[str, dict[str, Any]] = {
         "pairs that share a node of A": {"joint": ("a.top", "b.bottom"), "other": ("a.top", "c.bottom")},
         "the shared node on side B": {"joint": ("b.bottom", "a.top"), "other": ("c.bottom", "a.top")},
         "with the joint between b and c": {
@@ -93,7 +96,8 @@ def x_junction(t):
             "other": ("a.top", "c.bottom"),
             "third": ("b.right", "c.left"),
         },
-    }.items():
+    }
+    for name, joints in pairs.items():
         run = t.program.run(pressed("abc", joints, fix, ["b.top", "c.top"]), meshes).need()
         t.below(f"{name}: traction", max(off(run, joint) for joint in ("joint", "other")), 1e-9)
         if "third" in joints:
@@ -105,7 +109,7 @@ def x_junction(t):
     "self-interface: a slit inside one body, two curves of one surface",
     "allowed: closed by a stiff joint there is no slit",
 )
-def slit(t):
+def slit(t: Trial) -> None:
     mesh, whole = slit_mesh(6), slit_mesh(0)
     # the slit lies across a uniform compression; σ = −p with or without it
     step = {"fix": {"body.bottom": ["y"], "body.left": ["x"]}, "load": {"body.top": {"pressure": P}}}
@@ -127,7 +131,7 @@ def slit(t):
     )
 
 
-def slit_mesh(inside, n=12):
+def slit_mesh(inside: Any, n: int = 12) -> Any:
     """A unit square, y from −0.5, its middle line doubled over `inside` of n edges; curves lower and upper on the slit."""
     x, first = even(0, 1, n), (n - inside) // 2
     low = rectangle(x, even(-0.5, 0, 4), "Q4", body="body")
@@ -158,7 +162,7 @@ def slit_mesh(inside, n=12):
         curve = {group: nodes for _, group, _, nodes in high.blocks}["bottom"]
         middle = points[number[curve]][:, :, 0].mean(1)
         blocks.append((1, "upper", "L2", new[number[curve[np.isin(middle, on)]]]))
-    merged = {}
+    merged: dict[Any, list[Any]] = {}
     for dimension, group, kind, nodes in blocks:
         merged.setdefault((dimension, group, kind), []).append(nodes)
     return Mesh(points[np.unique(used)], [(*key, np.concatenate(nodes)) for key, nodes in merged.items()])

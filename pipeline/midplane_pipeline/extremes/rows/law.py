@@ -1,10 +1,12 @@
 """Rows on the laws: friction from none to a lot, no strength, energies tiny and huge, reversal and closing."""
 
+from typing import Any
+
 import numpy as np
 
 from ..blocks import blocks, peak, pulled, sheared, way
 from ..msh import even, rectangle
-from ..row import row
+from ..row import Trial, row
 from ..scenes import coulomb, cracking, scene
 
 COMPRESSED = ("stress", -10.0)
@@ -15,7 +17,7 @@ COMPRESSED = ("stress", -10.0)
     "friction 0, 1e-12, 1, 10; friction angle 0 in the cracking law",
     "0 carries no shear, 10 sticks on every slope below 84.29°; tan φ = 0 is refused by the cracking law: no tensile limit",
 )
-def friction(t):
+def friction(t: Trial) -> None:
     t.note("The hyperbola at tan φ = 0 is a strip that no tension leaves: the cracking law refuses it, Coulomb's law is for μ = 0.")
     for mu in (0.0, 1e-12, 1.0, 10.0):
         run = t.program.run(sheared(coulomb(1e6, 1e4, mu), 2.0, [3e-4, -3e-4, 3e-4]), blocks()).need()
@@ -58,7 +60,7 @@ def friction(t):
         )
 
 
-def incline(mu, degrees):
+def incline(mu: Any, degrees: Any) -> tuple[Any, dict[str, Any]]:
     """A flat block of weight 0.02 per thickness on a held base; both stiff."""
     angle = np.radians(degrees)
     law = coulomb(1e3, 1e3, mu)
@@ -73,7 +75,7 @@ def incline(mu, degrees):
     "no tensile strength",
     "tension carries nothing from the start: stress ≤ 1e-12 c₀; the vertex is the origin",
 )
-def no_tensile_strength(t):
+def no_tensile_strength(t: Trial) -> None:
     law = cracking(tensile_strength=0.0, fracture_energy_i=0.0)
     rows = t.program.law(law, way(((1e-5, 0.0), 5), ((2e-5, 1e-5), 5), ((3e-5, 1e-4), 5))).need().rows()
     t.below("opening: |t| / c₀", np.hypot(rows["traction_n"], rows["traction_t"]).max() / 4.0, 1e-12)
@@ -86,7 +88,7 @@ def no_tensile_strength(t):
 
 
 @row("B15", "no strength at all", "Coulomb friction; nothing is divided by the gradient at the vertex")
-def no_strength(t):
+def no_strength(t: Trial) -> None:
     zero = {"tensile_strength": 0.0, "cohesion": 0.0, "fracture_energy_i": 0.0, "fracture_energy_iia": 0.0}
     law = cracking(tangential_stiffness=1e4, normal_stiffness=1e6, tan_friction=0.6, **zero)
     run = t.program.run(sheared(law, 2.0, [3e-4, -3e-4, 3e-4]), blocks()).need()
@@ -104,7 +106,7 @@ def no_strength(t):
     "c₀ < χ₀ tan φ₀: the centre of the hyperbola beyond its vertex",
     "refused at input, with the numbers",
 )
-def vertex_outside(t):
+def vertex_outside(t: Trial) -> None:
     t.refused(
         "law",
         t.program.law(cracking(cohesion=2.0), way(((1e-6, 0.0), 2))),
@@ -119,7 +121,7 @@ def vertex_outside(t):
 
 
 @row("B17", "G_I so small that K_N G_I ≤ χ₀²", "refused, with the least admissible K_N")
-def brittle(t):
+def brittle(t: Trial) -> None:
     text, meshes = pulled(cracking(fracture_energy_i=8e-7), 1e-4)
     # χ₀²/G_I = 9 / 8e-7
     t.refused("K_N = 1e7", t.program.run(text, meshes), "normal_stiffness", "1.125e7", "do not fit each other")
@@ -138,7 +140,7 @@ def brittle(t):
     "G_I = 1e6 and G_IIa huge",
     "perfect plasticity, at most 5 iterations an increment, 8 in the one that is divided where it cracks",
 )
-def tough(t):
+def tough(t: Trial) -> None:
     law = cracking(fracture_energy_i=1e6, fracture_energy_iia=1e6)
     run = t.program.run(sheared(law, 10.0, [1e-3], 20), blocks()).need()
     tau = peak(law, -10.0)
@@ -165,7 +167,7 @@ def tough(t):
     "G_IIa < G_I: cohesion gone before the tensile strength",
     "refused where c < χ tan φ would come about; c ≥ χ tan φ all along any softening that is allowed",
 )
-def wrong_order(t):
+def wrong_order(t: Trial) -> None:
     law = cracking(fracture_energy_i=2e-3, fracture_energy_iia=2e-4)
     t.refused("G_IIa = G_I / 10", t.program.law(law, way(((1e-6, 0.0), 2))), "fracture_energy_iia", "raise")
     equal = cracking(fracture_energy_iia=2e-4)
@@ -181,7 +183,7 @@ def wrong_order(t):
     "no dilatancy, σ = 0: the flow direction is discontinuous",
     "case 11 at 45°: σ falls to 0 and stays there",
 )
-def no_dilatancy(t):
+def no_dilatancy(t: Trial) -> None:
     law = cracking(normal_stiffness=1e6, tangential_stiffness=1e6, tan_friction_residual=0.6)
     for tolerance in (1e-4, 1e-6):
         run = t.program.law(law, way(((1e-4, 1e-4), 1000)), "--tolerance", f"{tolerance:g}").need()
@@ -209,7 +211,7 @@ def no_dilatancy(t):
     "unloading, reloading, reversal of shear, closing after opening",
     "elastic slopes; work and dissipation never fall",
 )
-def reversal(t):
+def reversal(t: Trial) -> None:
     there = way(
         ((COMPRESSED, 0.0), 2),
         ((COMPRESSED, 1e-4), 200),
@@ -228,8 +230,8 @@ def reversal(t):
         f"{rows['traction_t'].min():.3f}",
         "< −8",
     )
-    rows = t.program.law(cracking(), way(((8e-5, 0.0), 100), ((0.0, 0.0), 100), ((-1e-6, 0.0), 10), ((1.2e-4, 0.0), 100)))
-    rows = rows.need().rows()
+    run = t.program.law(cracking(), way(((8e-5, 0.0), 100), ((0.0, 0.0), 100), ((-1e-6, 0.0), 10), ((1.2e-4, 0.0), 100)))
+    rows = run.need().rows()
     closed = (rows["s"] >= 2.0) & (rows["s"] <= 3.0)
     slope = np.diff(rows["traction_n"][closed]) / np.diff(rows["jump_n"][closed])
     t.below("closing after opening: |slope / K_N − 1|", np.abs(slope / 1e7 - 1).max(), 1e-6)

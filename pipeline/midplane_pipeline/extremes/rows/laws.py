@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..blocks import blocks, pulled, sheared, way
-from ..row import row
+from ..row import Trial, row
 from ..scenes import closing, cohesive
 
 KN, KT, FT, FS, GI, GII = 1e7, 1e7, 3.0, 5.0, 2e-4, 6e-4
@@ -15,7 +15,7 @@ BROKEN = 1e-3  # a slip beyond the final one, 2 G_II/f_s = 2.4e-4
     "`cohesive`: friction 0, 1e-12, 1, 10; strengths of 1e-12 and 0; energies at the least, huge, G_II < G_I",
     "exact peak, plateau, areas and friction; what snaps back at a point is refused with the least stiffness",
 )
-def cohesive_parameters(t):
+def cohesive_parameters(t: Trial) -> None:
     for mu in (0.0, 1e-12, 1.0, 10.0):
         path = way(((0.0, BROKEN), 100), ((-1e-6, BROKEN), 2), ((-1e-6, 2 * BROKEN), 20), ((-1e-6, -BROKEN), 40))
         rows = t.program.law(cohesive(friction_coefficient=mu), path).need().rows()
@@ -53,7 +53,7 @@ def cohesive_parameters(t):
     "`cohesive`: unloading, reloading, reversal of shear, closing after opening",
     "secants through the origin, K_N closed; damage and dissipation never fall",
 )
-def cohesive_reversal(t):
+def cohesive_reversal(t: Trial) -> None:
     path = way(((8e-5, 0.0), 100), ((0.0, 0.0), 20), ((-1e-6, 0.0), 10), ((8e-5, 0.0), 50), ((2e-4, 0.0), 100))
     rows = t.program.law(cohesive(), path).need().rows()
     top = rows["traction_n"][rows["s"] == 1.0][0]
@@ -82,7 +82,7 @@ def cohesive_reversal(t):
     "`closure`: K from 1e-3 to 1e12, V from 1e-9 to 1e6, pressures from 1e-6 to 1e6 K V",
     "the hyperbola σ = K u/(1 + u/V), at a point, on a mesh in one increment and back to nothing; V = 0 refused",
 )
-def closures(t):
+def closures(t: Trial) -> None:
     worst = 0.0
     for k in (1e-3, 1.0, 1e6, 1e12):
         for v in (1e-9, 1e-3, 1e6):
@@ -101,8 +101,8 @@ def closures(t):
                 run = t.program.run(text, blocks()).need()
                 exact = -pressure / (1e4 + pressure / v)
                 name = f"{kind}, V = {v:g}, p = {part:g} K V"
-                sigma = run.traction(number=1)[:, 0]
-                t.below(f"{name}: |σ/p + 1|", np.abs(sigma / pressure + 1).max(), 1e-9)
+                traction = run.traction(number=1)[:, 0]
+                t.below(f"{name}: |σ/p + 1|", np.abs(traction / pressure + 1).max(), 1e-9)
                 jump = run.joint(number=1)["jump"][:, 0]
                 t.below(f"{name}: |u/exact − 1|", np.abs(jump / exact - 1).max(), 1e-9)
                 t.below(f"{name}: what is left without load, of p", np.abs(run.traction()[:, 0]).max() / pressure, 1e-9)
@@ -114,7 +114,7 @@ def closures(t):
 
 
 @row("B50", "`closure`: friction there and back at constant pressure", "case 8a: what rubs does not see the normal springs")
-def closure_with_friction(t):
+def closure_with_friction(t: Trial) -> None:
     for v in (1e-8, 1e-3):
         law = closing("coulomb", 1e6, v, tangential_stiffness=1e4, friction_coefficient=0.6)
         run = t.program.run(sheared(law, 2.0, [3e-4, -3e-4, 3e-4], 7), blocks()).need()

@@ -1,11 +1,14 @@
 """Rows on the materials: incompressible, negative ν, stiff on soft, thin layers and slender cells."""
 
+from typing import Any
+
 import numpy as np
+from midplane.vtu import Array
 
 from midplane_pipeline.exact.inclusion import disc
 
 from ..msh import arc, even, rectangle
-from ..row import Curve, row
+from ..row import Curve, Trial, row
 from ..scenes import elastic, number, scene
 from ..solutions import Patch, Strip, lame
 
@@ -17,8 +20,8 @@ NU = (0.3, 0.45, 0.49, 0.499, 0.4999)
     "ν = 0.3 … 0.4999, 0.5, −0.99",
     "T6 and Q8 do not lock (energy within 0.5 %); linear elements are warned of above 0.49; 0.5 refused in plane strain, fine in plane stress",
 )
-def poisson(t):
-    series = {}
+def poisson(t: Trial) -> None:
+    series: dict[str, Any] = {}
     for shape, n in (("T3", 16), ("Q4", 16), ("T6", 8), ("Q8", 8)):
         for nu in NU:
             strip = Strip(nu=(nu, nu))
@@ -66,11 +69,18 @@ def poisson(t):
         t.below(f"case 1b, ν = {nu}: traction", patch.errors(run)[1], 1e-12 * stiff)
 
 
-def rings(e, torque=20.0, pressure=10.0, radii=(1.0, 1.5, 2.0), nu=(0.2, 0.3), k=(2e4, 1e4)):
+def rings(
+    e: tuple[float, float],
+    torque: float = 20.0,
+    pressure: float = 10.0,
+    radii: Any = (1.0, 1.5, 2.0),
+    nu: tuple[float, float] = (0.2, 0.3),
+    k: tuple[float, float] = (2e4, 1e4),
+) -> dict[str, Any]:
     """Case 3: amplitudes of two joined rings, inner edge held against rotation."""
     (a, b, c), layers = radii, [lame(e[i], nu[i]) for i in (0, 1)]
 
-    def stress(i, r):
+    def stress(i: Any, r: Any) -> Array:
         lam, mu = layers[i]
         return np.array([2 * (lam + mu), -2 * mu / r**2])
 
@@ -96,7 +106,7 @@ def rings(e, torque=20.0, pressure=10.0, radii=(1.0, 1.5, 2.0), nu=(0.2, 0.3), k
 
 
 @row("B12", "E ratio 1e-6 … 1e6 across a joint", "patch exact; case 3 within 1e-3; rigid inclusion and hole")
-def modulus(t):
+def modulus(t: Trial) -> None:
     ratios = [1e-6, 1e-3, 1.0, 1e3, 1e6]
     patches, ring_errors = [], []
     for ratio in ratios:
@@ -124,7 +134,7 @@ def modulus(t):
         inclusion(t, ratio, limit)
 
 
-def ring_error(t, ratio):
+def ring_error(t: Trial, ratio: Any) -> tuple[Any, Any]:
     """A quarter of the rings, the exact displacement on its cuts."""
     e = (3e4, 3e4 * ratio)
     exact = rings(e)
@@ -133,7 +143,7 @@ def ring_error(t, ratio):
         body: rectangle(even(0, 1, edges), even(*r, edges // 4), "Q8", arc(np.pi / 2, np.pi / 2))
         for body, edges, r in (("a", n, (1.0, 1.5)), ("b", m, (1.5, 2.0)))
     }
-    displace = {}
+    displace: dict[str, Any] = {}
     for i, body in enumerate("ab"):
         (a1, b1), (a2, b2) = fitted(exact, i, 0), fitted(exact, i, 1)
         # u_r = a1 r + b1/r, u_t = a2 r + b2/r
@@ -171,14 +181,25 @@ def ring_error(t, ratio):
     return error / scale, off / np.linalg.norm(wanted)
 
 
-def fitted(exact, i, component):
+def fitted(exact: Any, i: Any, component: Any) -> Array:
     """a and b of a r + b/r."""
     (r1, r2) = (1.0, 2.0)
     v1, v2 = exact["u"](i, r1)[component], exact["u"](i, r2)[component]
     return np.linalg.solve([[r1, 1 / r1], [r2, 1 / r2]], [v1, v2])
 
 
-def inclusion(t, ratio, limit, a=1.0, far=3.0, core=0.3, nu=(0.2, 0.3), em=1e4, kn=1e8, kt=1e8):
+def inclusion(
+    t: Trial,
+    ratio: Any,
+    limit: str,
+    a: float = 1.0,
+    far: float = 3.0,
+    core: float = 0.3,
+    nu: tuple[float, float] = (0.2, 0.3),
+    em: float = 1e4,
+    kn: float = 1e8,
+    kt: float = 1e8,
+) -> None:
     """Case 4, an elastic disc bonded by stiff springs in a plate under tension: t_n at 0° and 90° on the joint."""
     ei = em * ratio
     exact = disc(a, ei, nu[0], em, nu[1], kn, kt)
@@ -219,7 +240,7 @@ def inclusion(t, ratio, limit, a=1.0, far=3.0, core=0.3, nu=(0.2, 0.3), em=1e4, 
     "a layer of thickness 1e-3 … 1e-6 L, cells 1e3 … 1e6 times longer than high",
     "patch exact but for ε times the slenderness",
 )
-def thin(t):
+def thin(t: Trial) -> None:
     slender, errors = [], []
     for height in (1e-1, 1e-3, 1e-4, 1e-6):
         patch = Patch(heights=(0.5, height), kn=2e5, kt=5e4)

@@ -1,12 +1,13 @@
 """Rows on damaged mesh files."""
 
 import os
+from typing import Any
 
 import numpy as np
 
 from ..layers import good, off
 from ..msh import Mesh, even, rectangle
-from ..row import row
+from ..row import Trial, row
 
 
 @row(
@@ -14,14 +15,14 @@ from ..row import row
     "damaged meshes: cut, MSH 2.2, wrong counts, dangling and repeated tags, 2^63, NaN, zero area, …",
     "refused; memory below twice the file and a constant",
 )
-def damaged(t):
+def damaged(t: Trial) -> None:
     text, meshes = good()
     whole = meshes["b"].text()
     lines = whole.split("\n")
     base = t.program.run(text, meshes).need()
     t.below("the undamaged mesh: traction", off(base), 1e-10)
 
-    def swap(old, new, count=1):
+    def swap(old: Any, new: Any, count: int = 1) -> str:
         assert old in whole, old
         return whole.replace(old, new, count)
 
@@ -82,7 +83,7 @@ def damaged(t):
     t.refused("a mid-node far off its edge", t.program.run(text, {"a": quadratic, "b": curved}), "b.msh")
 
 
-def measured(t, text, meshes):
+def measured(t: Trial, text: Any, meshes: Any) -> tuple[Any, Any]:
     """A run and the memory it took, from the system."""
     place = t.program.write(text, meshes)
     pid = os.fork()

@@ -2,6 +2,8 @@
 
 import hashlib
 import os
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -9,7 +11,7 @@ from ..blocks import blocks, pulled, sheared, way
 from ..layers import YOUNG, pressed, ring_under_pressure
 from ..msh import even, rectangle
 from ..references import case_3
-from ..row import Curve, row
+from ..row import Curve, Trial, row
 from ..scenes import coulomb, cracking, elastic, relative, scene
 from ..solutions import Bending, Patch, Strip
 from ..units import converted, converted_mesh
@@ -17,7 +19,7 @@ from ..units import converted, converted_mesh
 UNITS = {"Pa, m": (1.0, 1e6), "MPa, mm": (1e3, 1.0)}  # against MPa, m
 
 
-def cases():
+def cases() -> Iterator[Any]:
     """Scenes of every kind, with their meshes."""
     strip = Strip()
     patch, bending = Patch(), Bending()
@@ -34,7 +36,7 @@ def cases():
     yield "shear box, cracking", *shear_box(cracking())
 
 
-def shear_box(law, edges=(12, 8), increments=10):
+def shear_box(law: dict[str, Any], edges: Any = (12, 8), increments: int = 10) -> tuple[Any, dict[str, Any]]:
     """Two layers under 10 MPa, the upper one pushed at its sides: slip comes in from both ends."""
     steps = [
         {
@@ -55,7 +57,7 @@ def shear_box(law, edges=(12, 8), increments=10):
     }
 
 
-def iterations(run):
+def iterations(run: Any) -> Any:
     return run.history()["iterations"].astype(int).tolist()
 
 
@@ -64,7 +66,7 @@ def iterations(run):
     "every case in three unit systems: MPa·m, Pa·m, MPa·mm; powers of two from 2^-60 to 2^60",
     "the same after scaling: displacements to 1e-12, tractions to 1e-9, as many iterations; bit for bit with powers of two",
 )
-def unit_systems(t):
+def unit_systems(t: Trial) -> None:
     for name, text, meshes in cases():
         base = t.program.run(text, meshes).need()
         for unit, (length, stress) in UNITS.items():
@@ -80,12 +82,12 @@ def unit_systems(t):
             t.holds(f"{name}, lengths × {length:.0e}, stresses × {stress:.0e}: bit for bit", same)
 
 
-def in_units(t, text, meshes, length, stress):
+def in_units(t: Trial, text: Any, meshes: Any, length: float, stress: float) -> Any:
     meshes = {body: converted_mesh(mesh, length) for body, mesh in meshes.items()}
     return t.program.run(converted(text, length, stress), meshes).need()
 
 
-def largest(run):
+def largest(run: Any) -> Any:
     return max(np.abs(run.displacement(body)).max() for body in "ab")
 
 
@@ -94,7 +96,7 @@ def largest(run):
     "whole failure in one step, and steps 1e6 × too far",
     "exact in one step, the far branch of a snap and friction alone included",
 )
-def huge_steps(t):
+def huge_steps(t: Trial) -> None:
     step_size(t)
     run = t.program.run(sheared(coulomb(1e6, 1e4, 0.6), 2.0, [3e-4, -3e-4, 3e-4], 1), blocks()).need()
     exact = [0.0, 2.16e-4, 6.48e-4, 1.08e-3]
@@ -136,7 +138,7 @@ def huge_steps(t):
     t.below("case 7, path followed: |u − u(σ)| / u_peak", np.abs(history["u"] - path).max() / 3.03e-4, 1e-3)
 
 
-def step_size(t):
+def step_size(t: Trial) -> None:
     """Case 11 at σ = −10 to 1e-3 m: error against the step, by plain backward Euler and under error control."""
     exact, counts, program = 9.400468213, [1, 2, 5, 10, 20, 50, 100], []
     law = cracking()
@@ -148,7 +150,8 @@ def step_size(t):
     orders = -np.diff(np.log(program)) / np.diff(np.log(counts))
     t.below("backward Euler, 400 steps: error", program[0], 1e-3)
     t.within("backward Euler: order in the step, over the last three", orders[-3:].mean(), 0.95, 1.2)
-    increments, controlled = [1, 2, 5, 10, 20, 50], {}
+    increments = [1, 2, 5, 10, 20, 50]
+    controlled: dict[str, Any] = {}
     for tolerance in (1e-4, 1e-6):
         for n in increments:
             run = t.program.run(sheared(law, 10.0, [1e-3], n, law_tolerance=tolerance), blocks()).need()
@@ -165,7 +168,7 @@ def step_size(t):
     "a million dofs; 1e5 segments",
     "a joint is bound in linear time; that of 1e6 dofs in below 1 % of the run",
 )
-def large(t):
+def large(t: Trial) -> None:
     for n in (120,) if t.quick else (120, 380):
         strip = Strip()
         meshes = strip.meshes(2 * n, 3 * n - 1, "Q4", (n, n // 2))
@@ -200,7 +203,7 @@ def large(t):
     t.curves.append(Curve("size", "Reading and binding a joint of many segments", "segments", "seconds", series))
 
 
-def files(run):
+def files(run: Any) -> dict[str, Any]:
     """Checksums of the fields and the history."""
     names = [*sorted(run.out.glob("fields/*")), run.out / "history.csv", *sorted(run.out.glob("midplane/*"))]
     return {str(path.relative_to(run.out)): hashlib.sha256(path.read_bytes()).hexdigest() for path in names}
@@ -211,7 +214,7 @@ def files(run):
     "the same input twice; 1, 2 and 4 threads",
     "bit-equal with the same threads, 1e-12 between numbers of threads",
 )
-def repetition(t):
+def repetition(t: Trial) -> None:
     for name, text, meshes in [*cases(), parts()]:
         if name == "in parts" and t.quick:
             continue
@@ -234,18 +237,18 @@ def repetition(t):
     t.note(f"Measured on a machine of {os.cpu_count()} cores.")
 
 
-def parts():
+def parts() -> tuple[str, Any, Any]:
     """Large enough to be factored in two parts side by side."""
     strip = Strip()
     return "in parts", strip.scene(), strip.meshes(160, 240, "Q4", (90, 60))
 
 
-def different(one, other):
+def different(one: Any, other: Any) -> list[Any]:
     return sorted(name for name in one.keys() | other.keys() if one.get(name) != other.get(name))
 
 
 @row("B40", "no load, no displacement", "zeros exactly, one iteration at most, nothing divided by zero")
-def nothing(t):
+def nothing(t: Trial) -> None:
     laws = {"elastic": elastic(1e6), "coulomb": coulomb(1e6, 1e6, 0.5), "cracking": cracking()}
     for name, law in laws.items():
         for strategy in ("auto", "plain"):

@@ -1,12 +1,13 @@
 """Rows on the scene file: groups, supports, free bodies, bad values."""
 
 import json
+from typing import Any
 
 import numpy as np
 
 from ..layers import FIX, KN, REMOVED, P, changed, good, off
 from ..msh import Mesh
-from ..row import row
+from ..row import Trial, row
 from ..scenes import coulomb, cracking, elastic
 
 
@@ -15,7 +16,7 @@ from ..scenes import coulomb, cracking, elastic
     "groups: missing, doubled, unused, empty, one name in two dimensions, a curve in two groups",
     "errors name the groups; unused ones are a warning of `check`; what has one meaning is accepted",
 )
-def groups(t):
+def groups(t: Trial) -> None:
     t.refused(
         "no group of that name",
         t.program.run(*changed("interfaces/joint/side_b", "b.botom")),
@@ -32,7 +33,7 @@ def groups(t):
     t.warned("groups that nothing uses", t.program.run(text, meshes, command="check").need(), "W09")
     mesh = meshes["b"]
 
-    def with_names(change):
+    def with_names(change: Any) -> str:
         """Mesh b with its physical names edited."""
         lines = mesh.text().split("\n")
         start, end = lines.index("$PhysicalNames"), lines.index("$EndPhysicalNames")
@@ -40,7 +41,7 @@ def groups(t):
         names = [" ".join(name) for name in names]
         return "\n".join([*lines[: start + 1], str(len(names)), *names, *lines[end:]])
 
-    def renamed(old, new):
+    def renamed(old: Any, new: Any) -> Any:
         return lambda names: [[d, tag, f'"{new}"' if name == f'"{old}"' else name] for d, tag, name in names]
 
     run = t.program.run(text, {**meshes, "b": with_names(renamed("right", "bottom"))})
@@ -70,7 +71,7 @@ def groups(t):
     "unknown boundary; two conditions on one dof; a corner in two supports",
     "equal values are fine, different ones refused",
 )
-def conditions(t):
+def conditions(t: Trial) -> None:
     t.refused("unknown group", t.program.run(*changed("steps/0/fix", {**FIX, "a.botom": ["y"]})), "botom")
     t.refused("unknown body", t.program.run(*changed("steps/0/fix", {**FIX, "c.bottom": ["y"]})), "c")
     run = t.program.run(*changed("steps/0/fix", {**FIX, "a.bottom": ["x", "y"]})).need()
@@ -85,7 +86,7 @@ def conditions(t):
 
 
 @row("B32", "a body that nothing holds", "named, with its free motion; nothing is solved")
-def free(t):
+def free(t: Trial) -> None:
     t.refused(
         "no support at all",
         t.program.run(*changed("steps/0/fix", {"a.bottom": ["y"]})),
@@ -116,10 +117,10 @@ def free(t):
     "NaN, inf, 1e400, wrong signs, wrong types, unknown and missing keys, no JSON",
     "refused before meshing, with the path of the key",
 )
-def bad_values(t):
+def bad_values(t: Trial) -> None:
     raw = json.dumps(good()[0])
 
-    def text(what, old, new, *expected):
+    def text(what: str, old: Any, new: Any, *expected: Any) -> None:
         assert old in raw, old
         t.refused(what, t.program.run(raw.replace(old, new, 1), good()[1]), *expected)
 
@@ -130,7 +131,7 @@ def bad_values(t):
     text("half a file", raw, raw[: len(raw) // 2], "scene.json")
     text("unknown key", '"steps"', '"stepz"', "stepz")
     text("a key twice", '"plane": "strain"', '"plane": "strain", "plane": "stress"', "plane")
-    for path, value, *expected in [
+    refusals: list[Any] = [
         ("materials/a/young", -1.0, "materials.a.young"),
         ("materials/a/young", 0.0, "materials.a.young"),
         ("materials/a/poisson", 0.5, "materials.a.poisson"),
@@ -161,7 +162,8 @@ def bad_values(t):
         ("subdomains/a/msh", "nowhere.msh", "nowhere.msh"),
         ("subdomains", {}, "subdomain"),
         ("plane", "oblique", "oblique"),
-    ]:
+    ]
+    for path, value, *expected in refusals:
         shown = "removed" if value is REMOVED else json.dumps(value)[:40]
         t.refused(f"{path}: {shown}", t.program.run(*changed(path, value)), *expected)
     run = t.program.run(*good(), "--set", "materials.a.young=NaN")
@@ -169,7 +171,7 @@ def bad_values(t):
 
 
 @row("B41", '`"plane": "axisymmetric"`', "refused, with strain and stress as what there is")
-def axisymmetric(t):
+def axisymmetric(t: Trial) -> None:
     t.refused("axisymmetric", t.program.run(*changed("plane", "axisymmetric")), "axisymmetric", "strain", "stress")
 
 
@@ -178,7 +180,7 @@ def axisymmetric(t):
     "loads, moduli, stiffnesses and thicknesses near the ends of the range of numbers, 1e±300 and beyond",
     "answered as exactly as any other, or refused with the reason; never a number that is none",
 )
-def ends_of_the_range(t):
+def ends_of_the_range(t: Trial) -> None:
     for path, values in {
         "steps/0/load/b.top/pressure": (1e-320, 1e-300, 1e150, 1e300, 1.7e308),
         "materials/a/young": (1e-300, 1e-150, 1e150, 1e300, 1.7e308),

@@ -1,10 +1,12 @@
 """Rows on the stiffness of the springs: from nothing to 1e18 E/h, and in one direction only."""
 
+from typing import Any
+
 import numpy as np
 
 from ..msh import arc, even, rectangle
 from ..references import case_3, case_9, references, round_off
-from ..row import Curve, first_line, row
+from ..row import Curve, Trial, first_line, row
 from ..scenes import elastic
 from ..solutions import Patch, Strip
 
@@ -12,7 +14,7 @@ FLOOR = 1e-11  # round-off of `projected`, at every stiffness up to 1e16 E/h
 EPS = np.finfo(float).eps
 
 
-def numbers(t):
+def numbers(t: Trial) -> Any:
     """K h/E."""
     return 10.0 ** np.arange(-2, 17, 3 if t.quick else 1)
 
@@ -23,8 +25,8 @@ def numbers(t):
     "`projected`: round-off ≤ 1e-11 of u and t for K h/E = 1e-2 … 1e16 on cases 1, 1b, 3, 9; model error of slope −1, "
     "discretisation error flat in K; beyond: refused with the number",
 )
-def stiffness(t):
-    curves = {}
+def stiffness(t: Trial) -> None:
+    curves: dict[str, list[Any]] = {}
     for name, patch in (("case 1", Patch(e=(1e4, 1e4), nu=(0.0, 0.0), snt=0.0, ett=0.0, theta=0.0, snn=-10.0)), ("case 1b", Patch())):
         for number in numbers(t):
             k = float(number) * min(patch.e) * 7
@@ -60,7 +62,7 @@ def stiffness(t):
     discretisation(t)
 
 
-def answered(t, curves, name, number, run, errors):
+def answered(t: Trial, curves: Any, name: str, number: Any, run: Any, errors: Any) -> None:
     """Up to 1e16 an answer below the floor is asked for."""
     found = curves.setdefault(name, [])
     if not run.good:
@@ -77,7 +79,7 @@ def answered(t, curves, name, number, run, errors):
     found.append((number, (u, traction)))
 
 
-def soft(t):
+def soft(t: Trial) -> None:
     for number in (1e-10, 1e-6):
         patch = Patch(snt=0.0)
         patch.kn = patch.kt = number * 4e3 * 7
@@ -110,7 +112,7 @@ def soft(t):
     )
 
 
-def beyond(t):
+def beyond(t: Trial) -> None:
     """An answer of the same accuracy, or a refusal that says how stiff it is."""
     for k in (1e18 * 4e3 * 7, 1e150, 1e300, 1.7e308):
         patch = Patch()
@@ -123,8 +125,8 @@ def beyond(t):
             t.refused(f"K = {k:.1e}", run, "normal_stiffness", "K_N h/E")
 
 
-def floor_of_pointwise(t):
-    series = {}
+def floor_of_pointwise(t: Trial) -> None:
+    series: dict[str, list[Any]] = {}
     for name, stiff, text, meshes, precise in references(t, "pointwise"):
         for number in numbers(t):
             k = float(number) * stiff
@@ -140,18 +142,18 @@ def floor_of_pointwise(t):
                 t.refused(f"pointwise, {name}, K h/E = {number:.0e}", run, "K_N h/E")
     lines = []
     for name, found in series.items():
-        n, u, traction = zip(*found, strict=True)
-        lines += [(f"{name}: displacement", n, u), (f"{name}: traction", n, traction)]
-        t.note(f"Floor of `pointwise`, {name}: traction {traction[-1]:.0e}, displacement {u[-1]:.0e} at K h/E = {n[-1]:.0e}.")
+        n, us, tractions = zip(*found, strict=True)
+        lines += [(f"{name}: displacement", n, us), (f"{name}: traction", n, tractions)]
+        t.note(f"Floor of `pointwise`, {name}: traction {tractions[-1]:.0e}, displacement {us[-1]:.0e} at K h/E = {n[-1]:.0e}.")
     t.curves.append(Curve("pointwise", "Round-off of pointwise", "K h/E", "relative error", lines))
 
 
-def model_error(t):
+def model_error(t: Trial) -> None:
     """Deflection of the top against that of a bond 1e9 E/H: exact solution and program, K/(E/H) = 1e1 … 1e6."""
     unit = 1e4 / 0.8
     exact_bond = Strip(kn=np.inf, kt=np.inf).solve()["q_top"]
 
-    def top(k):
+    def top(k: float) -> Any:
         strip, meshes = case_9(k, (16, 24), (13, 14))
         run = t.program.run(strip.scene(), meshes).need()
         return run.displacement("b")[run.points("b")[:, 1] == 0.6].min()
@@ -174,7 +176,7 @@ def model_error(t):
     )
 
 
-def discretisation(t):
+def discretisation(t: Trial) -> None:
     """Against the exact solution at the same stiffness."""
     numbers = [0.1, 1.0, 1e1, 1e2, 8e2, 1e4, 1e6, 1e8] if not t.quick else [1.0, 8e2, 1e6, 1e8]
     energy, traction = [], []
@@ -206,7 +208,7 @@ def discretisation(t):
     "K_T/K_N = 1e-12, 0, 1e12",
     "exact; K_T = 0 where the body is held otherwise; else named: refused where singular, warned of where only the polygon of an arc resists",
 )
-def one_direction(t):
+def one_direction(t: Trial) -> None:
     for ratio in (1e-12, 1e-6, 1e6, 1e12):
         for theta in (0.0, 30.0):
             patch = Patch(kt=2e5 * ratio, snt=0.0 if ratio < 1 else 2.5, theta=theta)
@@ -229,7 +231,8 @@ def one_direction(t):
     text, _ = case_3(2e4)
     text["interfaces"]["joint"]["law"] = elastic(2e4, 0.0)
     text["steps"][0]["load"] = {"b.top": {"pressure": 10.0}}
-    whole = {body: rectangle(even(0, 1, n), even(*r, 3), "Q4", arc(0.0, np.pi)) for body, n, r in (("a", 14, (1, 1.5)), ("b", 20, (1.5, 2)))}
+    halves = (("a", 14, (1.0, 1.5)), ("b", 20, (1.5, 2.0)))
+    whole = {body: rectangle(even(0, 1, n), even(*r, 3), "Q4", arc(0.0, np.pi)) for body, n, r in halves}
     t.note(
         "Half a ring on a frictionless half ring was expected to be refused as singular. On meshes it is not: the bends between the "
         "edges of the joint resist a turn, by less the finer the mesh. So the program warns (W12) with body and motion."

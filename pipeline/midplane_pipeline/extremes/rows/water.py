@@ -1,15 +1,17 @@
 """Rows on water in interfaces: pressures and flow at the ends of their numbers."""
 
+from typing import Any
+
 import numpy as np
 
 from ..blocks import blocks
-from ..row import row
+from ..row import Trial, row
 from ..scenes import cohesive, coulomb, elastic, scene
 
 JOINT = ("a.top", "b.bottom")
 
 
-def joined(law, load, increments=1, opening=None, **more):
+def joined(law: dict[str, Any], load: dict[str, Any], increments: int = 1, opening: Any = None, **more: Any) -> Any:
     """Two blocks on top of each other, the upper one driven or free to move up and down."""
     step = {"increments": increments, "fix": {"a": ["x", "y"] if opening else ["x"], "a.bottom": ["y"], "b": ["x"]}, "load": load}
     if opening:
@@ -19,7 +21,7 @@ def joined(law, load, increments=1, opening=None, **more):
     return scene(bodies, {"joint": (*JOINT, law)}, [step], output={"fields": "last", "history": probes}, **more)
 
 
-def flow(aperture, viscosity, ends, **more):
+def flow(aperture: Any, viscosity: Any, ends: Any, **more: Any) -> dict[str, Any]:
     return {"joint": {"pressure": {"flow": {"aperture": aperture, "viscosity": viscosity, "ends": ends, **more}}}}
 
 
@@ -28,7 +30,7 @@ def flow(aperture, viscosity, ends, **more):
     "flow: apertures from 1e-12 to 1e6, viscosities from 1e-15 to 1e12, a crack 1e9 times as wide as where it is closed",
     "pressures and rate of the closed form; one rate along the joint",
 )
-def flows(t):
+def flows(t: Trial) -> None:
     for aperture in (1e-12, 1e-3, 1e6):
         for viscosity in (1e-15, 1e-3, 1e12):
             run = t.program.run(joined(elastic(1.0), flow(aperture, viscosity, [3, -1]), opening="0"), blocks()).need()
@@ -60,10 +62,10 @@ def flows(t):
     "imposed pressures from 1e-12 to 1e12, steps for ramps, a pressure that lifts what lies on it",
     "total −P, effective p − P; steps are found; what nothing holds is told",
 )
-def pressures(t):
+def pressures(t: Trial) -> None:
     for p in (1e-12, 1.0, 1e12):
         for law in (elastic(1e4), coulomb(1e4, 1e4, 0.5)):
-            load = {"b.top": {"pressure": 3 * p}, "joint": {"pressure": p}}
+            load: dict[str, Any] = {"b.top": {"pressure": 3 * p}, "joint": {"pressure": p}}
             run = t.program.run(joined(law, load), blocks()).need()
             t.below(f"{law['type']}, p = {p:g}: |t/(−2p) − 1|", np.abs(run.traction()[:, 0] / (-2 * p) - 1).max(), 1e-9)
             t.below(f"{law['type']}, p = {p:g}: |N/(−3p) − 1|", abs(run.history()["n"][-1] / (-3 * p) - 1), 1e-9)
