@@ -136,4 +136,5 @@ def main(problem, folder, out):
     clock.tell(peer=f"CalculiX {version} + SPOOLES", dofs=u.size, **answers)
 
 
-main(*sys.argv[1:4])
+if __name__ == "__main__":
+    main(*sys.argv[1:4])

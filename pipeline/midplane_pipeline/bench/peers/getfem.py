@@ -166,4 +166,5 @@ def main(problem, folder, out):
     clock.tell(peer=f"GetFEM {gf.getfem_env('version')} + MUMPS", dofs=dofs, **answers)
 
 
-main(*sys.argv[1:4])
+if __name__ == "__main__":
+    main(*sys.argv[1:4])

@@ -101,4 +101,5 @@ def main(problem, folder, out, kind):
     clock.tell(peer=f"NGSolve {ngsolve.__version__} + {kind}", dofs=n, **answers)
 
 
-main(*sys.argv[1:5])
+if __name__ == "__main__":
+    main(*sys.argv[1:5])
