@@ -9,7 +9,7 @@ from midplane_pipeline.house.advisories import fits
 from midplane_pipeline.house.licences import is_taken
 from midplane_pipeline.robust.array import task_ids
 from midplane_pipeline.robust.damage import damaged
-from midplane_pipeline.robust.kill import timeless
+from midplane_pipeline.robust.files import timeless
 from midplane_pipeline.trade.scenes import SCENES, knobs, mesh, reference, settings
 
 

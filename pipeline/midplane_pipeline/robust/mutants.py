@@ -25,77 +25,10 @@ from typing import Any
 
 from midplane_pipeline.places import ROOT
 
-Site = dict[str, Any]  # a place of the sources
+from .areas import AREAS
+from .survivors import Site, same, write
 
 REASONS = ROOT / "tests/mutants/reasons.json"
-# sources, those that are left out, and the tests of a room, the quick ones first
-AREAS = {
-    "pairing": (
-        ["src/coupling/line/*.rs"],
-        ["src/coupling/line/faults.rs"],
-        ["coupling::"],
-        ["coupling", "joints", "gap", "ends", "junctions", "patch", "round", "shared_mesh", "fractures", "curves", "check", "warnings"],
-    ),
-    "projected operator": (
-        [
-            "src/coupling/projected.rs",
-            "src/coupling/pointwise.rs",
-            "src/coupling/jump.rs",
-            "src/coupling/slaves.rs",
-            "src/coupling/place.rs",
-            "src/sparse/banded.rs",
-        ],
-        [],
-        ["coupling::", "sparse::"],
-        ["coupling", "ends", "patch", "round", "gap", "junctions", "cantilever", "stiff"],
-    ),
-    "laws": (
-        ["src/law/**/*.rs"],
-        [],
-        ["law::"],
-        [
-            "law_closed_forms",
-            "law_coulomb",
-            "law_closing",
-            "law_extremes",
-            "law_steps",
-            "law_tangent",
-            "law_path",
-            "law_space",
-            "law_reference",
-            "fit",
-            "law_coulomb_way",
-            "law_invariants",
-            "law_cohesive",
-            "varying",
-        ],
-    ),
-    "load history": (
-        ["src/history/*.rs"],
-        # how an equilibrium is sought where Newton's method finds none decides no answer: what is found is one, by the checks of others
-        [f"src/history/{name}.rs" for name in ("clock", "memory", "progress", "rest", "stretch", "dissipate", "viscous")],
-        ["history::"],
-        [
-            "loads",
-            "ramp",
-            "steps",
-            "stages",
-            "opening",
-            "own_strains",
-            "in_situ",
-            "snapback",
-            "water",
-            "structures",
-            "resume",
-            "cycles",
-            "energies",
-            "increments",
-            "faults",
-            "tunnel",
-            "units",
-        ],
-    ),
-}
 SWITCH = """
 /// True for the mutant that the environment names.
 pub fn mutant(number: u32) -> bool {
@@ -271,36 +204,6 @@ def run(commands: list[list[str]], number: int, work: Path, limit: float) -> tup
     return None, time.monotonic() - begin
 
 
-def same(reason: Site, site: Site) -> bool:
-    """True if a reason is that of a place."""
-    return all(reason[key] == site[key] for key in ("file", "function", "right", "wrong"))
-
-
-def page(sites: list[Site], options: argparse.Namespace) -> str:
-    """The report in Markdown."""
-    areas = {site["area"]: None for site in sites}
-    lines = ["# Mutants", "", f"Written by `make mutants`: {len(sites)} places, drawn with seed {options.seed}, each made wrong in turn.", ""]
-    again = sum(site.get("again", False) for site in sites)
-    if again:
-        lines[-1:] = [f"{again} of them survived at first; tests were added, and these were tried once more (`make mutants again=1`).", ""]
-    lines += ["| area | mutants | caught | of them by time | survive |", "|---|---|---|---|---|"]
-    rows = [(area, [site for site in sites if site["area"] == area]) for area in areas] + [("all", sites)]
-    for area, own in rows:
-        caught = [site for site in own if site["caught"]]
-        late = sum(site["caught"] == "time" for site in caught)
-        lines.append(f"| {area} | {len(own)} | {len(caught)}, {100 * len(caught) / len(own):.0f} % | {late} | {len(own) - len(caught)} |")
-    lines += ["", "Those that survive, and why:", "", "| place | right | wrong | reason |", "|---|---|---|---|"]
-
-    def code(text: str) -> str:
-        return "`" + " ".join(text.split()).replace("|", "\\|") + "`" if text else ""
-
-    for site in sites:
-        if not site["caught"]:
-            place = f"{site['file'].removeprefix('src/')}, `{site['function']}`"
-            lines.append(f"| {place} | {code(site['right'])} | {code(site['wrong'])} | {site['reason'] or '**none yet**'} |")
-    return "\n".join(lines) + "\n"
-
-
 def main() -> None:
     """The command."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -348,19 +251,6 @@ def main() -> None:
     with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(one, order))
     write(sites, reasons, out, options)
-
-
-def write(sites: list[Site], reasons: list[Site], out: Path, options: argparse.Namespace) -> None:
-    """The report, and a line for the terminal."""
-    for site in sites:
-        site["reason"] = next((reason["reason"] for reason in reasons if same(reason, site)), "")
-    (out / "report.json").write_text(json.dumps(sites, indent=1) + "\n")
-    (out / "report.md").write_text(page(sites, options))
-    if options.docs:
-        shutil.copy(out / "report.md", options.docs / "MUTANTS.md")
-    caught = sum(1 for site in sites if site["caught"])
-    without = sum(1 for site in sites if not site["caught"] and not site["reason"])
-    print(f"{caught} of {len(sites)} caught, {100 * caught / len(sites):.0f} %; {without} of the others without a reason")
 
 
 if __name__ == "__main__":
