@@ -40,7 +40,7 @@ install() {
     echo "installing $*"
     apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "$@"
 }
-finds_browser() { python3 pipeline/trade_check.py --find; }
+finds_browser() { PYTHONPATH=pipeline python3 -m midplane_pipeline.trade.browser --find; } # before there is a venv
 
 if [ "${1:-}" = browser ] && ! finds_browser >/dev/null; then
     if ! may_install || ! install chromium-headless-shell; then

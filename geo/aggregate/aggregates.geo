@@ -10,7 +10,7 @@
 //
 // Physical groups: body (surface).
 //
-// Made by pipeline/aggregate.py with seed 1; change that, not this.
+// Made by midplane_pipeline.scenes.aggregate with seed 1; change that, not this.
 
 DefineConstant[ edge  = {0.006, Name "Length of the edges [m]"} ];
 DefineConstant[ order = {1, Name "Order of the elements, 1 or 2"} ];

@@ -72,7 +72,7 @@ The ratio is that of the numbers of edges, the kink the largest turn between two
     Check {
         #[command(flatten)]
         common: Common,
-        /// Write chains, projections, segments, grid and normals as VTU; pipeline/draw_check.py draws them
+        /// Write chains, projections, segments, grid and normals as VTU; midplane_pipeline.draw.check draws them
         #[arg(long)]
         plot: bool,
     },

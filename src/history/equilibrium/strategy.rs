@@ -14,7 +14,7 @@ const ITERATIONS: f64 = 4.0;
 const FEWEST: f64 = 100.0;
 
 /// Work in operations of a dense factor that take as long, 10 ps each: measured over a dozen scenes of 80 to 260 000 dofs
-/// (benches/strategies.py). For a dof once, where bodies are condensed; for a dof and an iteration, whatever the form.
+/// (midplane_pipeline.bench.strategies). For a dof once, where bodies are condensed; for a dof and an iteration, whatever the form.
 const CONDENSED_DOF: f64 = 4.5e5;
 const DOF: f64 = 1.2e4;
 const ITERATION: f64 = 5e7;

@@ -1,0 +1,1 @@
+"""Results of a scene from outside: files, fields, energies, statics, and what is known of it."""

@@ -1,0 +1,1 @@
+"""Pictures of results, checks, paths of a law and studies."""

@@ -1,0 +1,1 @@
+"""Exact solutions of scenes of the gallery, in closed form."""

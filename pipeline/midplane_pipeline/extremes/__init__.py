@@ -1,0 +1,1 @@
+"""The campaign of extremes: scenes written for it, their solutions, rows and report."""

@@ -1,0 +1,1 @@
+"""Parts from others: their advisories, licences, hashes."""

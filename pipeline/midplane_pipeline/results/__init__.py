@@ -1,0 +1,1 @@
+"""Results as checks, pictures and tables need them, beside the reader of the package midplane."""

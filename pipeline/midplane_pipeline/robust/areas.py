@@ -1,0 +1,70 @@
+"""Areas of the sources that are mutated, and the tests that are about them."""
+
+# sources, those that are left out, and the tests of a room, the quick ones first
+AREAS = {
+    "pairing": (
+        ["src/coupling/line/*.rs"],
+        ["src/coupling/line/faults.rs"],
+        ["coupling::"],
+        ["coupling", "joints", "gap", "ends", "junctions", "patch", "round", "shared_mesh", "fractures", "curves", "check", "warnings"],
+    ),
+    "projected operator": (
+        [
+            "src/coupling/projected.rs",
+            "src/coupling/pointwise.rs",
+            "src/coupling/jump.rs",
+            "src/coupling/slaves.rs",
+            "src/coupling/place.rs",
+            "src/sparse/banded.rs",
+        ],
+        [],
+        ["coupling::", "sparse::"],
+        ["coupling", "ends", "patch", "round", "gap", "junctions", "cantilever", "stiff"],
+    ),
+    "laws": (
+        ["src/law/**/*.rs"],
+        [],
+        ["law::"],
+        [
+            "law_closed_forms",
+            "law_coulomb",
+            "law_closing",
+            "law_extremes",
+            "law_steps",
+            "law_tangent",
+            "law_path",
+            "law_space",
+            "law_reference",
+            "fit",
+            "law_coulomb_way",
+            "law_invariants",
+            "law_cohesive",
+            "varying",
+        ],
+    ),
+    "load history": (
+        ["src/history/*.rs"],
+        # how an equilibrium is sought where Newton's method finds none decides no answer: what is found is one, by the checks of others
+        [f"src/history/{name}.rs" for name in ("clock", "memory", "progress", "rest", "stretch", "dissipate", "viscous")],
+        ["history::"],
+        [
+            "loads",
+            "ramp",
+            "steps",
+            "stages",
+            "opening",
+            "own_strains",
+            "in_situ",
+            "snapback",
+            "water",
+            "structures",
+            "resume",
+            "cycles",
+            "energies",
+            "increments",
+            "faults",
+            "tunnel",
+            "units",
+        ],
+    ),
+}

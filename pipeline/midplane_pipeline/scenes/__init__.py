@@ -1,0 +1,1 @@
+"""Scenes of the gallery that programs write."""

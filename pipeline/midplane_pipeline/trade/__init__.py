@@ -1,0 +1,1 @@
+"""Speed against accuracy: the campaign, its fronts, its page and its tables."""
