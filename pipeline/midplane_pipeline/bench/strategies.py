@@ -2,8 +2,8 @@
 
     python -m midplane_pipeline.bench.strategies target/release/midplane
 
-Prints seconds without those of the mesher and of writing files, which no strategy changes, the fastest of three runs where they are short, what `auto` took, and its ratio to
-the fastest. A strategy that takes twice as long as `auto` is stopped. Ends with 1 where `auto` is above the limit."""
+Prints seconds without those of the mesher and of writing files, which no strategy changes, the fastest of three runs where they are
+short, what `auto` took, and its ratio to the fastest. A strategy that takes twice as long as `auto` is stopped. Ends with 1 where `auto` is above the limit."""
 
 import argparse
 import subprocess
