@@ -25,27 +25,35 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 REASONS = ROOT / "tests/mutants/reasons.json"
-# sources, those that are left out, and the tests of a room, the quick ones first
+# programs of integration tests
+PROGRAMS = ["laws", "coupling", "equilibrium", "program"]
+# sources, those that are left out, unit tests of a room, and integration tests by program and file, the quick ones first
 AREAS = {
     "pairing": (
         ["src/coupling/line/*.rs"],
         ["src/coupling/line/faults.rs"],
         ["coupling::"],
-        ["coupling", "joints", "gap", "ends", "junctions", "patch", "round", "shared_mesh", "fractures", "curves", "check", "warnings"],
+        [
+            "coupling/straight", "coupling/joints", "equilibrium/gap", "coupling/ends", "coupling/junctions", "coupling/patch", "coupling/round",
+            "coupling/shared_mesh", "coupling/fractures", "coupling/curves", "program/check", "program/warnings",
+        ],
     ),
     "projected operator": (
         ["src/coupling/projected.rs", "src/coupling/pointwise.rs", "src/coupling/jump.rs", "src/coupling/slaves.rs", "src/coupling/place.rs", "src/sparse/banded.rs"],
         [],
         ["coupling::", "sparse::"],
-        ["coupling", "ends", "patch", "round", "gap", "junctions", "cantilever", "stiff"],
+        [
+            "coupling/straight", "coupling/ends", "coupling/patch", "coupling/round", "equilibrium/gap", "coupling/junctions", "coupling/cantilever",
+            "coupling/stiff",
+        ],
     ),
     "laws": (
         ["src/law/**/*.rs"],
         [],
         ["law::"],
         [
-            "law_closed_forms", "law_coulomb", "law_closing", "law_extremes", "law_steps", "law_tangent", "law_path", "law_space", "law_reference", "fit",
-            "law_coulomb_way", "law_invariants", "law_cohesive", "varying",
+            "laws/closed_forms", "laws/coulomb", "laws/closing", "laws/extremes", "laws/steps", "laws/tangent", "laws/path", "laws/space", "laws/reference", "coupling/fit",
+            "laws/coulomb_way", "laws/invariants", "laws/cohesive", "equilibrium/varying",
         ],
     ),
     "load history": (
@@ -53,7 +61,11 @@ AREAS = {
         # how an equilibrium is sought where Newton's method finds none decides no answer: what is found is one, by the checks of others
         [f"src/history/{name}.rs" for name in ("clock", "memory", "progress", "rest", "stretch", "dissipate", "viscous")],
         ["history::"],
-        ["loads", "ramp", "steps", "stages", "opening", "own_strains", "in_situ", "snapback", "water", "structures", "resume", "cycles", "energies", "increments", "faults", "tunnel", "units"],
+        [
+            "equilibrium/loads", "equilibrium/ramp", "equilibrium/steps", "equilibrium/stages", "equilibrium/opening", "equilibrium/own_strains",
+            "equilibrium/in_situ", "equilibrium/snapback", "equilibrium/water", "equilibrium/structures", "equilibrium/resume", "equilibrium/cycles",
+            "equilibrium/energies", "equilibrium/increments", "program/faults", "equilibrium/tunnel", "program/units",
+        ],
     ),
 }
 SWITCH = '''
@@ -158,11 +170,11 @@ class Mutants:
             for area in self.sample:
                 self.sample[area] = [site for site in self.sample[area] if site["number"] not in bad]
                 self.fill(area, count[area])
-        ended, messages = build(self.work, "test", "--no-run", "--lib", "--test", "tests")
+        ended, messages = build(self.work, "test", "--no-run", "--lib", *(f"--test={name}" for name in PROGRAMS))
         if ended.returncode:
             sys.exit(ended.stderr)
         made = {message["target"]["name"]: message["executable"] for message in messages if message["reason"] == "compiler-artifact" and message["executable"] and message["profile"]["test"]}
-        return [made["midplane"], made["tests"]]
+        return made
 
     def nearest(self, span):
         own = [site for site in self.all() if site["file"] == span["file_name"]]
@@ -172,7 +184,8 @@ class Mutants:
 
 def tests_of(area, programs):
     _, _, units, integration = AREAS[area]
-    return [[programs[0], *units], *([programs[1], f"{name}::"] for name in integration)]
+    integration = [name.split("/") for name in integration]
+    return [[programs["midplane"], *units], *([programs[program], f"{name}::"] for program, name in integration)]
 
 
 def run(commands, number, work, limit):

@@ -1,7 +1,5 @@
 //! Small MSH 4.1 files written by hand, text or binary, and the promises that a mesh read from any file must keep.
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use midplane::mesh::{Facet, Group, Mesh};
 
 /// What an MSH file says; every field may be made wrong on purpose.

@@ -3,13 +3,17 @@
 pub mod boundary;
 pub mod boxes;
 pub mod chains;
+pub mod laws;
 pub mod mesh_text;
 pub mod place;
 pub mod rings;
 pub mod round;
+pub mod scene;
 pub mod squares;
 pub mod strip;
 pub mod table;
+
+pub use scene::*;
 
 use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};

@@ -9,8 +9,6 @@
 //!  └─────────┘  y = 0     corner: the left end of the bottom
 //! ```
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use std::path::Path;
 use std::process::{Command, Output};
 
