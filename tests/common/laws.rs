@@ -1,4 +1,4 @@
-//! What the tests of the laws share: reference curves, parameter sets, a fixed stream of random numbers.
+//! Reference curves, parameter sets and a fixed stream of random numbers for tests of laws.
 
 use midplane::law::path::{Controlled, LawPath, PathRow, drive};
 use midplane::law::{Cracking, Integration, Law, Local, PointLaw, State, Unloading, WORK};

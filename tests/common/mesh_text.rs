@@ -2,7 +2,7 @@
 
 use midplane::mesh::{Facet, Group, Mesh};
 
-/// What an MSH file says; every field may be made wrong on purpose.
+/// Contents of an MSH file; every field may be made wrong on purpose.
 #[derive(Debug, Clone)]
 pub struct MeshText {
     /// Dimension, number and name of the named groups.
@@ -23,7 +23,7 @@ pub struct Block {
     pub elements: Vec<(u64, Vec<u64>)>,
 }
 
-/// How numbers are written.
+/// The form in which numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     Text,

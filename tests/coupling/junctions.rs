@@ -310,7 +310,7 @@ fn one_place_is_never_joined_twice() {
     assert!(same.contains(r#"one.side_a: "sw.top" and "sw.top" hold the same edge, at ("#), "{same}");
 }
 
-/// What the scene joins by name is left out of `between`, which then has a law for all the others.
+/// A pair that the scene joins by name is left out of `between`, which then has a law for all the others.
 #[test]
 fn a_named_interface_takes_its_pair_out_of_between() {
     let state = Uniform { stress: [-1.0, -2.0, 0.5] };

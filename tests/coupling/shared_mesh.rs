@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::common::mesh_text::{area, edges, keeps_its_promises};
-use crate::common::{even, rectangle};
+use crate::common::{Scene, even, geometry, rectangle, step};
 use midplane::mesh::{Group, Mesh};
 use midplane::shape::Shape;
 
@@ -190,14 +190,9 @@ fn surfaces_that_do_not_fit_are_refused_by_name() {
 #[test]
 fn a_surface_that_nobody_takes_is_told_and_one_that_two_take_is_refused() {
     let folder = tempfile::tempdir().unwrap();
-    let alone = SCENE
-        .replace(r#""east": { "geo": "blocks.geo", "surface": "east", "material": "rock" }"#, "")
-        .replace("\"rock\" },\n    \n", "\"rock\" }\n");
-    let start = alone.find("\"interfaces\"").unwrap();
-    let alone = format!(
-        "{}\"steps\": [ {{ \"name\": \"rest\", \"fix\": {{ \"west\": [\"x\", \"y\"] }} }} ] }}",
-        &alone[..start]
-    );
+    let west = geometry("blocks.geo", "rock").with("surface", "west");
+    let alone = Scene::new("stress").body("west", west).material("rock", 1e4, 0.3);
+    let alone = alone.step(step("rest").fix("west", "xy")).to_string();
     let output = midplane(folder.path(), &alone, &["check", ".", "-o", "out"]);
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{message}");

@@ -14,7 +14,7 @@ use crate::common::table::Table;
 use crate::common::*;
 use midplane::shape::Shape;
 
-/// Of the largest value of the field.
+/// Largest error, relative to the largest value of the field.
 const LIMIT: f64 = 1e-11;
 const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Triangle6, Shape::Quadrilateral8];
 const E: [f64; 2] = [1e4, 4e3];

@@ -7,7 +7,7 @@ use crate::common::boxes::*;
 use crate::common::laws::Random;
 use crate::common::*;
 
-/// What a run gave.
+/// Results of a run.
 struct Run {
     /// Shear at load factors 0.2, 0.4, … 1.
     curve: Vec<f64>,
@@ -19,12 +19,16 @@ struct Run {
     balance: f64,
 }
 
-fn run(law: &str, mesh: (usize, usize), pressure: f64, slide: f64, increments: usize, more: &str) -> Run {
-    let what = format!("{}:{}, P = {pressure}, {increments} increments{more}, {law}", mesh.0, mesh.1);
-    let control = if more.contains("auto") { "auto" } else { "load" };
-    let text = scene(law, pressure, slide, increments, if control == "auto" { "" } else { more }, control);
+/// A box under pressure and sheared by a slide.
+fn run(law: &Cracking, mesh: (usize, usize), pressure: f64, slide: f64, increments: usize) -> Run {
+    let what = format!("P = {pressure}, {increments} increments, {law:?}");
+    solved(&what, &law.sheared(pressure, shear(slide, increments)), mesh)
+}
+
+fn solved(what: &str, scene: &Scene, mesh: (usize, usize)) -> Run {
+    let what = format!("{}:{}, {what}", mesh.0, mesh.1);
     let clock = std::time::Instant::now();
-    let problem = bind(&text, layers(mesh.0, mesh.1)).unwrap();
+    let problem = scene.bind(layers(mesh.0, mesh.1)).unwrap();
     let march = try_solve(&problem);
     let totals = march.end.unwrap_or_else(|error| panic!("{what}: {error}"));
     let shear = |state: &midplane::history::ModelState| state.probes(&problem)[0];
@@ -74,8 +78,8 @@ const LIMITS: [(f64, usize, usize, usize, f64, f64); 5] = [
 
 fn matrix(mesh: (usize, usize), ends: [f64; 5]) {
     for ((pressure, all, one, few, apart, within), end) in LIMITS.into_iter().zip(ends) {
-        let fine = run(&ROCK.text(), mesh, pressure, 1e-3, 50, "");
-        let coarse = run(&ROCK.text(), mesh, pressure, 1e-3, 5, "");
+        let fine = run(&ROCK, mesh, pressure, 1e-3, 50);
+        let coarse = run(&ROCK, mesh, pressure, 1e-3, 5);
         let what = format!("{mesh:?}, P = {pressure}");
         assert!(fine.iterations <= all && fine.most <= one, "{what}: {}, {}", fine.iterations, fine.most);
         assert!(coarse.iterations <= few, "{what}: {}", coarse.iterations);
@@ -119,8 +123,8 @@ fn rock_whose_cracks_close_at_any_confinement() {
     let rock = Cracking { unloading: "closing", ..ROCK };
     for (mesh, ends) in [((12, 8), [2.902, 1.862]), ((24, 16), [2.915, 1.867])] {
         for (k, (pressure, all, one, few, apart, within)) in LIMITS.into_iter().enumerate() {
-            let fine = run(&rock.text(), mesh, pressure, 1e-3, 50, "");
-            let coarse = run(&rock.text(), mesh, pressure, 1e-3, 5, "");
+            let fine = run(&rock, mesh, pressure, 1e-3, 50);
+            let coarse = run(&rock, mesh, pressure, 1e-3, 5);
             let what = format!("{mesh:?}, P = {pressure}");
             assert!(fine.iterations <= all && fine.most <= one, "{what}: {}, {}", fine.iterations, fine.most);
             assert!(coarse.iterations <= few, "{what}: {}", coarse.iterations);
@@ -136,8 +140,8 @@ fn rock_whose_cracks_close_at_any_confinement() {
 #[test]
 fn the_way_through_the_snap_does_not_hang_on_the_increments() {
     // at P = 0.1 friction locks in behind the snap: ten times the increments give the same to the scatter of that
-    let many = run(&ROCK.text(), (24, 16), 0.1, 1e-3, 500, "");
-    let fine = run(&ROCK.text(), (24, 16), 0.1, 1e-3, 50, "");
+    let many = run(&ROCK, (24, 16), 0.1, 1e-3, 500);
+    let fine = run(&ROCK, (24, 16), 0.1, 1e-3, 50);
     close(many.curve[4], fine.curve[4], 0.06, fine.curve[4], "500 and 50 increments");
 }
 
@@ -145,17 +149,19 @@ fn the_way_through_the_snap_does_not_hang_on_the_increments() {
 fn masonry_at_any_confinement() {
     for mesh in [(12, 8), (24, 16)] {
         for pressure in [0.1, 0.5, 1.0, 2.0] {
-            let fine = run(&MASONRY.text(), mesh, pressure, 1e-3, 50, "");
-            let coarse = run(&MASONRY.text(), mesh, pressure, 1e-3, 5, "");
+            let fine = run(&MASONRY, mesh, pressure, 1e-3, 50);
+            let coarse = run(&MASONRY, mesh, pressure, 1e-3, 5);
             let what = format!("{mesh:?}, P = {pressure}");
             println!("{what}: {} and {} iterations", coarse.iterations, fine.iterations);
             assert!(differ(&fine, &coarse) <= 0.003, "{what}: {}", differ(&fine, &coarse));
         }
-        run(&MASONRY.text(), mesh, 0.0, 1e-3, 5, "");
+        run(&MASONRY, mesh, 0.0, 1e-3, 5);
         // without control of the error, increments cost what the independent program takes
         for pressure in [0.1, 0.5, 1.0, 2.0] {
             for (increments, most) in [(5, 30), (50, 150)] {
-                let plain = run(&MASONRY.text(), mesh, pressure, 1e-3, increments, r#""path_tolerance": 1"#);
+                let scene = MASONRY.sheared(pressure, shear(1e-3, increments));
+                let plain =
+                    solved("without control of the error", &scene.solution("path_tolerance", 1), mesh);
                 assert!(
                     plain.iterations <= most,
                     "{mesh:?}, P = {pressure}: {} iterations",
@@ -167,7 +173,7 @@ fn masonry_at_any_confinement() {
     // cohesion that is spent within the slide leaves friction alone
     let spent = Cracking { energies: [4e-6, 2e-5], ..MASONRY };
     for (pressure, increments) in [(0.1, 5), (0.1, 50), (1.0, 5), (1.0, 50)] {
-        let shear = run(&spent.text(), (24, 16), pressure, 1e-3, increments, "").curve[4];
+        let shear = run(&spent, (24, 16), pressure, 1e-3, increments).curve[4];
         close(shear, 0.75 * pressure, 1e-4, 0.75 * pressure, "friction alone");
     }
 }
@@ -176,7 +182,7 @@ fn masonry_at_any_confinement() {
 fn friction_alone_is_left_after_a_long_slide() {
     for mesh in [(12, 8), (24, 16)] {
         for pressure in [0.5, 1.0, 2.0] {
-            let shear = run(&ROCK.text(), mesh, pressure, 1e-2, 20, "").curve[4];
+            let shear = run(&ROCK, mesh, pressure, 1e-2, 20).curve[4];
             close(shear / (0.8785 * pressure), 1.0, 1e-4, 1.0, &format!("{mesh:?}, P = {pressure}"));
         }
     }
@@ -187,9 +193,8 @@ fn a_interface_that_dilates_rises_alike_in_any_increments() {
     // stiff asperities: over a straight way of 0.05 mm the interface would press or open by more than it is pressed
     let law = Cracking { dilatancy_stress: 1.0, ..ROCK };
     let rise = |increments: usize, strategy: &str| {
-        let solution = format!(r#""strategy": "{strategy}""#);
-        let text = scene(&law.text(), 0.5, 8e-3, increments, &solution, "load");
-        let problem = bind(&text, layers(12, 8)).unwrap();
+        let scene = law.sheared(0.5, shear(8e-3, increments)).solution("strategy", strategy);
+        let problem = scene.bind(layers(12, 8)).unwrap();
         let march = try_solve(&problem);
         let totals = march.end.unwrap();
         let last = &march.states[march.states.len() - 1];
@@ -235,7 +240,7 @@ fn ten_further_laws_reach_the_end() {
     for law in laws {
         for pressure in [0.1, 1.0] {
             for increments in [5, 50] {
-                run(&law.text(), (24, 16), pressure, 1e-3, increments, "");
+                run(&law, (24, 16), pressure, 1e-3, increments);
             }
         }
     }
@@ -247,7 +252,7 @@ fn stiff_interfaces_that_dilate_and_slide_far_reach_their_end() {
     // K_N times the slide is 1e7 times what is carried: rounding leaves 1e-10 of it
     for (dilatancy_stress, energy) in [(1.0, 2e-5), (6.0, 2e-4), (6.0, 2e-5)] {
         let law = Cracking { stiffness: 1e8, dilatancy_stress, energies: [energy, 2e-3], ..ROCK };
-        let shear = run(&law.text(), (24, 16), 0.1, 8e-3, 10, "").curve[4];
+        let shear = run(&law, (24, 16), 0.1, 8e-3, 10).curve[4];
         close(shear, 0.8785 * 0.1, 1e-3, 0.8785 * 0.1, "friction alone");
     }
 }
@@ -255,7 +260,8 @@ fn stiff_interfaces_that_dilate_and_slide_far_reach_their_end() {
 #[test]
 fn paths_reach_their_end_too() {
     for pressure in [0.1, 1.0] {
-        run(&ROCK.text(), (12, 8), pressure, 1e-3, 50, "auto");
+        let scene = ROCK.sheared(pressure, shear(1e-3, 50).control("auto"));
+        solved(&format!("P = {pressure}, auto"), &scene, (12, 8));
     }
 }
 
@@ -292,7 +298,7 @@ fn random_box(number: u64) {
     let pressure = 5.0 * random.between(0.0, 1.0);
     let increments = if random.between(0.0, 1.0) < 0.5 { 5 } else { 50 };
     println!("{number}: {law:?}");
-    let balance = run(&law.text(), mesh, pressure, 1e-3, increments, "").balance;
+    let balance = run(&law, mesh, pressure, 1e-3, increments).balance;
     assert!(balance < 0.01, "{number}: energies are out of balance by {balance}");
 }
 

@@ -12,6 +12,8 @@
 use std::path::Path;
 use std::process::Command;
 
+use crate::common::step;
+
 /// Peak load [MN], its opening [m] and the compliance before anything cracks [m/MN], of the plane model.
 const PEAK: f64 = 2.243647156e-3;
 const OPENING: f64 = 2.922298141e-3;
@@ -164,10 +166,8 @@ fn the_limit_load_does_not_hang_on_the_increments() {
     const FORCE: f64 = 3e-3;
     let limit = |increments: usize| {
         let folder = tempfile::tempdir().unwrap();
-        let step = format!(
-            r#"steps.0={{ "name": "load", "increments": {increments}, "fix": {{ "lower.load": ["x", "y"], "upper.load": ["x"] }},
-              "load": {{ "upper.load": {{ "force": [0, {FORCE}] }} }} }}"#
-        );
+        let held = step("load").fix("lower.load", "xy").fix("upper.load", "x");
+        let step = format!("steps.0={}", held.increments(increments).force("upper.load", 0, FORCE));
         let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
         command.arg("run").arg(concat!(env!("CARGO_MANIFEST_DIR"), "/geo/dcb")).arg("-q");
         for setting in [

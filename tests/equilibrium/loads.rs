@@ -171,7 +171,7 @@ fn zero_load_gives_zeros() {
     assert!(states[0].snapshot.tractions[0].iter().flatten().all(|&t| t == 0.0));
 }
 
-/// What can move freely is named with its motion, and not solved.
+/// A body that can move freely is named with its motion, and not solved.
 #[test]
 fn a_free_subdomain_is_reported_by_name_and_mode() {
     let go = || step("go").pressure("upper.top", 1.0);

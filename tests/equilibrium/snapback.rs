@@ -7,26 +7,36 @@
 
 use crate::common::*;
 use midplane::shape::Shape;
+use serde_json::Value;
 
 const E: f64 = 1e4;
 const KN: f64 = 1e6;
 const CHI: f64 = 3.0;
 const GI: f64 = 2e-4;
 
-fn scene(end: f64, control: &str, strategy: &str) -> String {
-    format!(
-        r#"{{"plane": "stress",
-        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
-        "materials": {{"m": {{"young": {E}, "poisson": 0}}}},
-        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom",
-            "law_tolerance": 1e-8, "law": {{"type": "cracking", "normal_stiffness": {KN}, "tangential_stiffness": {KN},
-            "tensile_strength": {CHI}, "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {GI},
-            "fracture_energy_iia": 2e-3, "dilatancy_stress": 0}}}}}},
-        "solution": {{"strategy": "{strategy}"}},
-        "steps": [{{"name": "pull", "increments": 40, "control": "{control}",
-            "fix": {{"lower.bottom": ["y"], "lower.corner": ["x"], "upper.corner": ["x"]}},
-            "displace": {{"upper.top": {{"y": {end}}}}}}}]}}"#
-    )
+/// Two bars on each other, before one is pulled away.
+fn bars(strategy: &str, law_tolerance: f64) -> Scene {
+    let joint = faces("lower.top", "upper.bottom").with("law_tolerance", law_tolerance);
+    Scene::new("stress")
+        .subdomains(["lower", "upper"], "m")
+        .material("m", E, 0.0)
+        .interface("joint", joint.law(cracking(KN, KN, [CHI, 4.0, 0.8785], [GI, 2e-3])))
+        .solution("strategy", strategy)
+}
+
+/// The pull to an end, a number or a formula.
+fn pull(end: impl Into<Value>, control: &str, increments: usize) -> Step {
+    step("pull")
+        .increments(increments)
+        .control(control)
+        .fix("lower.bottom", "y")
+        .fix("lower.corner", "x")
+        .fix("upper.corner", "x")
+        .displace("upper.top", "y", end)
+}
+
+fn scene(end: f64, control: &str, strategy: &str) -> Scene {
+    bars(strategy, 1e-8).step(pull(end, control, 40))
 }
 
 /// Claim: a part that is pulled away by many lengths of its interface, because it is asked to, goes there: only what nothing asks for goes nowhere.
@@ -35,7 +45,7 @@ fn a_pull_over_many_lengths_is_followed() {
     let bar =
         |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
     for strategy in ["condensed", "blocks", "plain"] {
-        let problem = bind(&scene(5.0, "load", strategy), vec![bar(-0.5), bar(0.0)]).unwrap();
+        let problem = scene(5.0, "load", strategy).bind(vec![bar(-0.5), bar(0.0)]).unwrap();
         let found = try_solve(&problem);
         assert!(
             (found.load_factors.last().unwrap() - 1.0).abs() < 1e-12,
@@ -52,19 +62,18 @@ fn affine_formulas_are_followed_as_ramps() {
     let bar =
         |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
     let end = 1.02 * CHI * (1.0 / E + 1.0 / KN);
-    let run = |text: &str| try_solve(&bind(text, vec![bar(-0.5), bar(0.0)]).unwrap());
-    let ramp = scene(end, "auto", "condensed");
-    let stated = format!("{{\"y\": {end}}}");
-    assert!(ramp.contains(&stated));
-    let formula = ramp.replace(&stated, &format!("{{\"y\": \"{end}*load_factor\"}}"));
-    let (a, b) = (run(&ramp), run(&formula));
+    let bound = |end: Value| {
+        let scene = bars("condensed", 1e-8).step(pull(end, "auto", 40));
+        scene.bind(vec![bar(-0.5), bar(0.0)])
+    };
+    let run = |end: Value| try_solve(&bound(end).unwrap());
+    let (a, b) = (run(end.into()), run(format!("{end}*load_factor").into()));
     assert!(a.load_factors.windows(2).any(|two| two[1] < two[0]), "the path turns back");
     assert_eq!(a.load_factors.len(), b.load_factors.len());
     for (one, other) in a.load_factors.iter().zip(&b.load_factors) {
         assert!((one - other).abs() < 1e-9, "{one} {other}");
     }
-    let bends = ramp.replace(&stated, &format!("{{\"y\": \"{end}*load_factor^2\"}}"));
-    let message = bind(&bends, vec![bar(-0.5), bar(0.0)]).unwrap_err().to_string();
+    let message = bound(format!("{end}*load_factor^2").into()).unwrap_err().to_string();
     assert!(message.contains("steps.0.control: the path of equilibria cannot be followed"), "{message}");
     assert!(message.contains("in several steps where they bend"), "{message}");
 }
@@ -89,7 +98,7 @@ fn the_exact_path_is_followed_however_brittle_the_bar() {
                 [x, y]
             })
         };
-        let problem = bind(&scene(end, control, strategy), vec![bar(-length / 2.0), bar(0.0)]).unwrap();
+        let problem = scene(end, control, strategy).bind(vec![bar(-length / 2.0), bar(0.0)]).unwrap();
         let march = try_solve(&problem);
         let (mut lowest, mut turn) = (CHI, (f64::INFINITY, 0.0));
         for (state, load_factor) in march.states.iter().zip(&march.load_factors) {
@@ -131,8 +140,8 @@ fn an_increment_that_goes_too_far_from_the_start_is_divided() {
     let end = 1.1 * CHI * c;
     let bar =
         |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
-    let text = scene(end, "auto", "condensed").replace("\"increments\": 40", "\"increments\": 1");
-    let problem = bind(&text, vec![bar(-0.5), bar(0.0)]).unwrap();
+    let scene = bars("condensed", 1e-8).step(pull(end, "auto", 1));
+    let problem = scene.bind(vec![bar(-0.5), bar(0.0)]).unwrap();
     let march = try_solve(&problem);
     assert!(march.end.is_ok(), "{:?}", march.end.err());
     assert!(march.states.len() > 5);
@@ -166,9 +175,8 @@ fn load_control_snaps_from_the_peak_to_the_far_branch_and_tells_it() {
         };
         for increments in [1, 7, 40] {
             let what = format!("L = {length}, {strategy}, {increments} increments");
-            let text = scene(end, "load", strategy);
-            let text = text.replace("\"increments\": 40", &format!("\"increments\": {increments}"));
-            let march = try_solve(&bind(&text, vec![bar(-length / 2.0), bar(0.0)]).unwrap());
+            let scene = bars(strategy, 1e-8).step(pull(end, "load", increments));
+            let march = try_solve(&scene.bind(vec![bar(-length / 2.0), bar(0.0)]).unwrap());
             let totals = march.end.unwrap();
             assert_eq!(totals.snaps.len(), 1, "{what}: {:?}", totals.snaps);
             let load_factor = totals.snaps[0].load_factor * 1.2;
@@ -200,10 +208,8 @@ fn many_points_that_crack_at_once_end_as_the_closed_form_says_in_any_increments(
     for (control, strategy) in [("load", "condensed"), ("load", "plain"), ("auto", "condensed")] {
         for increments in [1, 3, 60] {
             let what = format!("{control}, {strategy}, {increments} increments");
-            let text = scene(end, control, strategy);
-            let text = text.replace("\"increments\": 40", &format!("\"increments\": {increments}"));
-            let text = text.replace("\"law_tolerance\": 1e-8", "\"law_tolerance\": 1e-5");
-            let march = try_solve(&bind(&text, vec![bar(11, -length / 2.0), bar(16, 0.0)]).unwrap());
+            let scene = bars(strategy, 1e-5).step(pull(end, control, increments));
+            let march = try_solve(&scene.bind(vec![bar(11, -length / 2.0), bar(16, 0.0)]).unwrap());
             let totals = march.end.unwrap();
             assert!(totals.snaps.is_empty(), "{what}");
             for (state, load_factor) in march.states.iter().zip(&march.load_factors) {

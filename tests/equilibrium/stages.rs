@@ -143,7 +143,7 @@ fn held_and_let_go(load: Step) {
     }
 }
 
-/// What joined a part that has slid is forgotten with it: the joint is as at the start while the part is away.
+/// The slip of a part is forgotten when it goes: the joint is as at the start while the part is away.
 #[test]
 fn a_part_that_goes_takes_its_slip_along() {
     let load = step("load").pressure("b.top", 30);

@@ -146,7 +146,7 @@ fn increments_that_were_cut_leave_no_trace() {
     }
 }
 
-/// What the law points of the interface remember.
+/// Values of the states of the law points of the interface.
 fn of_points<T>(state: &ModelState, what: impl Fn(&law::State) -> Vec<T>) -> Vec<T> {
     state.snapshot.states[0].iter().flat_map(what).collect()
 }

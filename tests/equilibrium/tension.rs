@@ -16,20 +16,14 @@ const GI: f64 = 2e-4;
 const WIDTH: f64 = 0.02;
 
 /// Two bars, the upper end pulled by `end`.
-fn scene(end: f64, increments: usize, coupling: &str, more: &str) -> String {
-    format!(
-        r#"{{"plane": "stress",
-        "subdomains": {{"lower": {{"msh": "a", "material": "m"}}, "upper": {{"msh": "b", "material": "m"}}}},
-        "materials": {{"m": {{"young": {E}, "poisson": 0}}}},
-        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "coupling": "{coupling}",
-            "law_tolerance": 1e-9, "law": {{"type": "cracking", "normal_stiffness": {KN}, "tangential_stiffness": {KN},
-            "tensile_strength": {CHI}, "cohesion": 4, "tan_friction": 0.8785, "fracture_energy_i": {GI},
-            "fracture_energy_iia": 2e-3, "dilatancy_stress": 0}}}}}},
-        {more}
-        "steps": [{{"name": "pull", "increments": {increments},
-            "fix": {{"lower.bottom": ["y"], "lower.corner": ["x"], "upper.corner": ["x"]}},
-            "displace": {{"upper.top": {{"y": {end}}}}}}}]}}"#
-    )
+fn scene(end: f64, increments: usize, coupling: &str, law_tolerance: f64) -> Scene {
+    let joint = faces("lower.top", "upper.bottom").coupling(coupling).with("law_tolerance", law_tolerance);
+    let pull = step("pull").increments(increments).fix("lower.bottom", "y").fix("lower.corner", "x");
+    Scene::new("stress")
+        .subdomains(["lower", "upper"], "m")
+        .material("m", E, 0.0)
+        .interface("joint", joint.law(cracking(KN, KN, [CHI, 4.0, 0.8785], [GI, 2e-3])))
+        .step(pull.fix("upper.corner", "x").displace("upper.top", "y", end))
 }
 
 fn bars(length: f64, shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
@@ -56,7 +50,7 @@ fn the_stable_branch_is_followed_and_costs_the_fracture_energy() {
         (Shape::Quadrilateral8, (1, 1), "projected"),
     ] {
         let what = format!("{shape:?} {pair:?} {coupling}");
-        let problem = bind(&scene(end, 60, coupling, ""), bars(length, shape, pair)).unwrap();
+        let problem = scene(end, 60, coupling, 1e-9).bind(bars(length, shape, pair)).unwrap();
         let (states, totals) = solve(&problem);
         assert!(totals.energy_balance < 5e-3, "{what}: balance {:e}", totals.energy_balance);
         let mut cracked = 0;
@@ -112,11 +106,13 @@ fn newton_converges_quadratically_with_the_consistent_tangent_only() {
     );
     for strategy in ["condensed", "plain"] {
         for tangent in ["consistent", "initial"] {
-            let more = format!(
-                r#""solution": {{"strategy": "{strategy}", "tangent": "{tangent}", "iterations": 400, "tolerance": 1e-12, "path_tolerance": 1}},"#
-            );
-            let text = scene(6e-4, 12, "projected", &more).replace("1e-9", "1e-4");
-            let problem = bind(&text, bars(0.05, Shape::Quadrilateral4, (3, 2))).unwrap();
+            let scene = scene(6e-4, 12, "projected", 1e-4)
+                .solution("strategy", strategy)
+                .solution("tangent", tangent)
+                .solution("iterations", 400)
+                .solution("tolerance", 1e-12)
+                .solution("path_tolerance", 1);
+            let problem = scene.bind(bars(0.05, Shape::Quadrilateral4, (3, 2))).unwrap();
             let (states, _) = solve(&problem);
             let residuals = hardest(&states);
             let order = order(residuals);
@@ -142,8 +138,8 @@ fn a_bar_that_snaps_back_snaps_to_the_far_branch() {
     // the listed stress after the jump at the peak's displacement
     let below = 0.03352028576;
     close(exact(length, below), peak, 1e-9, peak, "listed");
-    let text = scene(1.2 * peak, 12, "projected", "");
-    let problem = bind(&text, bars(length, Shape::Quadrilateral4, (1, 1))).unwrap();
+    let scene = scene(1.2 * peak, 12, "projected", 1e-9);
+    let problem = scene.bind(bars(length, Shape::Quadrilateral4, (1, 1))).unwrap();
     let march = try_solve(&problem);
     for (state, load) in march.states.iter().zip(&march.load_factors) {
         let (u, s) = (1.2 * peak * load, state.snapshot.tractions[0][0][0]);

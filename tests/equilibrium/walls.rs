@@ -6,14 +6,19 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::common::*;
 use midplane::history::{Clock, Equations, History, Means, ModelState};
 use midplane::problem::Problem;
 use midplane::run::{Options, prepare};
 use midplane::solver::{Continuum, Form, JoinedSubdomains};
 
-const FRICTION: &str = r#"{ "type": "coulomb", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "friction_coefficient": 0.6 }"#;
-const CRACKING: &str = r#"{ "type": "cracking", "normal_stiffness": 1e5, "tangential_stiffness": 4e4, "tensile_strength": 0.05,
-    "cohesion": 0.1, "tan_friction": 0.6, "fracture_energy_i": 1e-4, "fracture_energy_iia": 1e-3, "dilatancy_stress": 0 }"#;
+fn friction() -> Law {
+    coulomb(1e5, 4e4, 0.6)
+}
+
+fn mortar() -> Law {
+    cracking(1e5, 4e4, [0.05, 0.1, 0.6], [1e-4, 1e-3])
+}
 
 /// Nodes of bricks that count as equal are apart by 2e-11 of their size at most, five times as much of a cell's: so much of its stiffness.
 const APART: f64 = 1e-10;
@@ -69,26 +74,32 @@ fn wall(courses: usize, bricks: usize) -> (Vec<Block>, [Vec<usize>; 2]) {
     (blocks, ends)
 }
 
-/// The scene of blocks that touch, between steps of JSON.
-fn scene(folder: &Path, blocks: &[Block], law: &str, steps: &str) {
+/// Writes the scene of blocks that touch.
+fn write(folder: &Path, blocks: &[Block], law: &Law, steps: &[Step]) {
     std::fs::write(folder.join("blocks.geo"), geometry(blocks)).unwrap();
-    let subdomain =
-        |b: usize| format!(r#""b{b}": {{ "geo": "blocks.geo", "surface": "b{b}", "material": "brick" }}"#);
-    let subdomains: Vec<String> = (1..=blocks.len()).map(subdomain).collect();
-    let text = format!(
-        r#"{{ "plane": "strain", "subdomains": {{ {} }},
-          "materials": {{ "brick": {{ "young": 1e4, "poisson": 0.15, "density": 2e-3 }} }},
-          "interfaces": {{ "joints": {{ "between": ["b*", "b*"], "law": {law} }} }},
-          "steps": [ {steps} ], "output": {{ "fields": "none" }} }}"#,
-        subdomains.join(", ")
-    );
-    std::fs::write(folder.join("scene.json"), text).unwrap();
+    let mut scene = Scene::new("strain").material("brick", 1e4, 0.15).density("brick", 2e-3);
+    for b in 1..=blocks.len() {
+        let name = format!("b{b}");
+        let body = scene::geometry("blocks.geo", "brick").with("surface", name.as_str());
+        scene = scene.body(&name, body);
+    }
+    let joints = between("b*", "b*").law(law.clone());
+    scene.interface("joints", joints).steps(steps.to_vec()).with_in("output", "fields", "none").write(folder);
 }
 
-/// Loads or supports on a side of some blocks.
-fn on(blocks: &[usize], side: usize, what: &str) -> String {
-    let one = |b: &usize| format!(r#""b{b}.b{b}_{side}": {what}"#);
-    blocks.iter().map(one).collect::<Vec<_>>().join(", ")
+/// A side of some blocks.
+fn sides(blocks: &[usize], side: usize) -> impl Iterator<Item = String> {
+    blocks.iter().map(move |b| format!("b{b}.b{b}_{side}"))
+}
+
+/// The weight, with the lower sides of some blocks held.
+fn weight(low: &[usize]) -> Step {
+    sides(low, 1).fold(step("weight").gravity(0, -9.81), |step, side| step.fix(&side, "xy"))
+}
+
+/// A pressure on the upper sides of some blocks.
+fn pressed(step: Step, top: &[usize], pressure: f64) -> Step {
+    sides(top, 3).fold(step, |step, side| step.pressure(&side, pressure))
 }
 
 fn bound(folder: &Path, strategy: &str) -> Problem {
@@ -134,15 +145,11 @@ fn apart(a: &ModelState, b: &ModelState) -> [f64; 2] {
 fn condensed_bricks_and_all_displacements_find_the_same() {
     let (blocks, [low, top]) = wall(10, 10);
     assert_eq!(blocks.len(), 105);
-    for (name, law, shear) in [("friction", FRICTION, 0.07), ("cracking", CRACKING, 0.09)] {
+    for (name, law, shear) in [("friction", friction(), 0.07), ("cracking", mortar(), 0.09)] {
         let folder = tempfile::tempdir().unwrap();
-        let (fix, press) = (on(&low, 1, r#"["x", "y"]"#), on(&top, 3, r#"{ "pressure": 0.2 }"#));
-        let push = on(&top, 3, &format!(r#"{{ "traction": [{shear}, -0.2] }}"#));
-        let steps = format!(
-            r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }}, "load": {{ {press} }} }},
-               {{ "name": "push", "increments": 5, "load": {{ {push} }} }}"#
-        );
-        scene(folder.path(), &blocks, law, &steps);
+        let push = step("push").increments(5);
+        let push = sides(&top, 3).fold(push, |step, side| step.traction(&side, shear, -0.2));
+        write(folder.path(), &blocks, &law, &[pressed(weight(&low), &top, 0.2), push]);
         let [one, other] = ["blocks", "plain"].map(|strategy| states(folder.path(), strategy));
         assert_eq!((one.len(), other.len()), (6, 6));
         let last = &one[5];
@@ -166,13 +173,10 @@ fn voussoirs_of_an_arch_are_condensed_once_and_turned() {
         |k: usize| Block { corners: [at(k, 1.0), at(k, 1.3), at(k + 1, 1.3), at(k + 1, 1.0)], cells: [6, 5] };
     let blocks: Vec<Block> = (0..voussoirs).map(block).collect();
     let folder = tempfile::tempdir().unwrap();
-    let fix = [on(&[1], 1, r#"["x", "y"]"#), on(&[voussoirs], 3, r#"["x", "y"]"#)].join(", ");
-    let steps = format!(
-        r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }} }},
-           {{ "name": "load", "increments": 3, "load": {{ {} }} }}"#,
-        on(&[4], 2, r#"{ "traction": [0.0, -0.02] }"#)
-    );
-    scene(folder.path(), &blocks, FRICTION, &steps);
+    let weight = sides(&[voussoirs], 3).fold(weight(&[1]), |step, side| step.fix(&side, "xy"));
+    let load = step("load").increments(3);
+    let load = sides(&[4], 2).fold(load, |step, side| step.traction(&side, 0.0, -0.02));
+    write(folder.path(), &blocks, &friction(), &[weight, load]);
     let problem = bound(folder.path(), "blocks");
     let held: Vec<bool> = problem.steps[0].constrained.clone();
     // 2 to 6 are one; 1 and 7 have interfaces on one side only, and supports
@@ -191,12 +195,8 @@ fn voussoirs_of_an_arch_are_condensed_once_and_turned() {
 fn bricks_of_another_size_or_material_are_not_equal() {
     let (mut blocks, [low, _]) = wall(4, 3);
     let folder = tempfile::tempdir().unwrap();
-    let step = format!(
-        r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {} }} }}"#,
-        on(&low, 1, r#"["x", "y"]"#)
-    );
     let distinct = |blocks: &[Block], stiffer: Option<usize>| {
-        scene(folder.path(), blocks, FRICTION, &step);
+        write(folder.path(), blocks, &friction(), &[weight(&low)]);
         let mut problem = bound(folder.path(), "blocks");
         if let Some(brick) = stiffer {
             problem.model.subdomains[brick].elasticity.c33 *= 1.0 + f64::EPSILON;
@@ -220,9 +220,7 @@ fn bodies_that_move_as_a_whole_make_no_forces() {
     // not to 1e-16 of S x, but none: what is taken are differences
     let (blocks, [low, _]) = wall(2, 2);
     let folder = tempfile::tempdir().unwrap();
-    let fix = on(&low, 1, r#"["x", "y"]"#);
-    let step = format!(r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }} }}"#);
-    scene(folder.path(), &blocks, FRICTION, &step);
+    write(folder.path(), &blocks, &friction(), &[weight(&low)]);
     let problem = bound(folder.path(), "blocks");
     let free = vec![false; problem.model.dofs()];
     let continuum = Continuum::new(&problem.model, &free, None).unwrap();
@@ -239,17 +237,12 @@ fn bodies_that_move_as_a_whole_make_no_forces() {
 #[test]
 fn a_wall_under_little_pressure_is_pushed_to_its_end() {
     let (blocks, [low, top]) = wall(6, 4);
-    for (law, pressure) in [(CRACKING, 0.01), (CRACKING, 0.002), (FRICTION, 0.002)] {
+    for (law, pressure) in [(mortar(), 0.01), (mortar(), 0.002), (friction(), 0.002)] {
         for increments in [5, 40] {
             let folder = tempfile::tempdir().unwrap();
-            let (fix, press) =
-                (on(&low, 1, r#"["x", "y"]"#), on(&top, 3, &format!(r#"{{ "pressure": {pressure} }}"#)));
-            let push = on(&top, 3, r#"{ "x": 2e-4 }"#);
-            let steps = format!(
-                r#"{{ "name": "weight", "gravity": [0, -9.81], "fix": {{ {fix} }}, "load": {{ {press} }} }},
-                   {{ "name": "push", "increments": {increments}, "displace": {{ {push} }} }}"#
-            );
-            scene(folder.path(), &blocks, law, &steps);
+            let push = step("push").increments(increments);
+            let push = sides(&top, 3).fold(push, |step, side| step.displace(&side, "x", 2e-4));
+            write(folder.path(), &blocks, &law, &[pressed(weight(&low), &top, pressure), push]);
             let states = states(folder.path(), "blocks");
             assert_eq!(states.len(), 1 + increments);
             assert!(states[increments].dissipated > 0.0);

@@ -2,6 +2,7 @@
 //! every branch, and no way makes energy.
 
 use crate::common::laws::{Random, close};
+use crate::common::scene::cohesive;
 use midplane::law::{
     Cohesive, Integration, Law, Local, LocalMatrix, MixedMode, N, NamedSoftening, PointLaw, Response,
     Softening, State,
@@ -476,12 +477,10 @@ fn what_no_point_can_follow_is_refused() {
     close(half.own[WORK], 0.15, 1e-15, "half of the energy");
     let rest = crack.respond(Local::new(1.0, 0.0, 0.0), &half, EXACT).unwrap();
     close(rest.dissipation, 0.15, 1e-12, "what is left of it");
-    let law: Law = serde_json::from_str(
-        r#"{ "type": "cohesive", "normal_stiffness": 1e6, "tangential_stiffness": 4e5, "tensile_strength": 60,
-             "shear_strength": 90, "fracture_energy_i": 0.3, "fracture_energy_ii": 0.9, "softening": [[0, 1], [0.02, 0]],
-             "mixed_mode": { "benzeggagh_kenane": 1.75 } }"#,
-    )
-    .unwrap();
+    let stated = cohesive(1e6, 4e5, [60.0, 90.0], [0.3, 0.9])
+        .with("softening", vec![[0.0, 1.0], [0.02, 0.0]])
+        .with_in("mixed_mode", "benzeggagh_kenane", 1.75);
+    let law: Law = serde_json::from_value(stated.into()).unwrap();
     law.check().unwrap();
     assert!(law.warnings()[0].what.contains("6.0000e-1")); // 60 · 0.02/2
 }

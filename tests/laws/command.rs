@@ -2,6 +2,9 @@
 
 use std::process::{Command, Output};
 
+use crate::common::{Scene, elastic, faces, step};
+use serde_json::json;
+
 fn law(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
     command.current_dir(env!("CARGO_MANIFEST_DIR")).arg("law").args(arguments).output().unwrap()
@@ -73,19 +76,19 @@ fn bad_input_is_refused_with_its_place() {
 fn numbers_of_a_scene_are_read_to_the_last_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("path.json");
-    let unit = r#"{ "control": "displacement", "start": 0, "end": 1 }"#;
-    std::fs::write(&path, format!(r#"{{ "program": [ {{ "n": {unit}, "t": {unit}, "points": 1 }} ] }}"#))
-        .unwrap();
-    let scene = folder.path().join("scene.json");
+    let unit = json!({ "control": "displacement", "start": 0, "end": 1 });
+    let program = json!({ "program": [{ "n": unit, "t": unit, "points": 1 }] });
+    std::fs::write(&path, program.to_string()).unwrap();
     for k in [2.209278197011611e-16, 3.0977600523181534e-6, 94279652.81195137, 4.334703999811721e-19] {
-        let text = format!(
-            r#"{{ "plane": "strain", "materials": {{ "rock": {{ "young": 1, "poisson": 0 }} }}, "steps": [ {{ "name": "none" }} ],
-              "subdomains": {{ "a": {{ "msh": "a", "material": "rock" }}, "b": {{ "msh": "b", "material": "rock" }} }},
-              "interfaces": {{ "joint": {{ "side_a": "a.top", "side_b": "b.bottom",
-                "law": {{ "type": "elastic", "normal_stiffness": {k:?}, "tangential_stiffness": 1 }} }} }} }}"#
-        );
-        std::fs::write(&scene, text).unwrap();
-        let rows = rows(&law(&[scene.to_str().unwrap(), "joint", path.to_str().unwrap()]));
+        let scene = Scene::new("strain")
+            .subdomains(["a", "b"], "rock")
+            .material("rock", 1.0, 0.0)
+            .interface("joint", faces("a.top", "b.bottom").law(elastic("K", 1)))
+            .step(step("none"));
+        let text = scene.to_string().replace("\"K\"", &format!("{k:?}"));
+        let file = folder.path().join("scene.json");
+        std::fs::write(&file, text).unwrap();
+        let rows = rows(&law(&[file.to_str().unwrap(), "joint", path.to_str().unwrap()]));
         assert_eq!(rows[2][3].parse::<f64>().unwrap(), k);
     }
 }

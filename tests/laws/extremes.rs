@@ -4,6 +4,7 @@
 //! in the wrong order, no dilatancy at σ = 0, unloading, reversal and closing.
 
 use crate::common::laws::{EXAMPLE_2, Random, close};
+use crate::common::scene;
 use midplane::law::path::{ComponentControl, Controlled, LawPath, PathError, PathSegment, drive};
 use midplane::law::{
     Cracking, Inadmissible, Integration, Law, Local, LocalMatrix, PointLaw, State, Unloading, WORK,
@@ -289,11 +290,14 @@ fn a_way_that_cannot_be_resolved_ends_and_says_so() {
 
 #[test]
 fn a_traction_that_is_no_number_carries_nothing() {
-    let law: Law = serde_json::from_str(
-        r#"{ "type": "coulomb", "tangential_stiffness": 9e4, "friction_coefficient": 1.0, "cohesion": 0.1, "dilatancy": 0.03,
-             "closure": { "initial_stiffness": 2e3, "maximum": 2e-5 } }"#,
-    )
-    .unwrap();
+    let stated = scene::law("coulomb")
+        .with("tangential_stiffness", 9e4)
+        .with("friction_coefficient", 1.0)
+        .with("cohesion", 0.1)
+        .with("dilatancy", 0.03)
+        .with_in("closure", "initial_stiffness", 2e3)
+        .with_in("closure", "maximum", 2e-5);
+    let law: Law = serde_json::from_value(stated.into()).unwrap();
     let way = |start, end| ComponentControl { control: Controlled::Stress, start, end };
     let program = vec![
         PathSegment { n: way(0.0, -6.0), t: way(0.0, -0.0095), points: 6 },

@@ -6,7 +6,7 @@
 use crate::common::laws::Random;
 use midplane::law::{Cracking, Integration, Law, Local, Response, State, Unloading, WORK};
 
-/// Of the strength or the traction.
+/// Tolerance, relative to the strength or the traction.
 const ROUNDING: f64 = 1e-12;
 
 /// F(σ, τ; W), written once more, from the definitions.

@@ -11,7 +11,7 @@ use crate::common::squares::{SCENE, assert_shortened, changed, midplane, structu
 fn scene(folder: &Path, name: &str, from: &str, to: &str) {
     let text = |of: &str, text: &str| if of == name { changed(text, from, to) } else { text.to_string() };
     let (lower, upper) = (text("lower.geo", &structured(3)), text("upper.geo", &structured(5)));
-    write(folder, &lower, &upper, &text("scene.json", SCENE));
+    write(folder, &lower, &upper, text("scene.json", SCENE));
 }
 
 #[test]

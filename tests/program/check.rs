@@ -1,7 +1,7 @@
 //! Claim: `midplane check` says of every interface what it is, warns of what spoils it, and `--plot` writes it to look at.
 
-use crate::common::squares::{SCENE, midplane, structured, write};
-use crate::common::{bind, even, rectangle};
+use crate::common::squares::{SCENE, compression, joined, midplane, springs, structured, write};
+use crate::common::{even, faces, rectangle};
 use midplane::error::Code;
 use midplane::shape::Shape;
 use tempfile::TempDir;
@@ -58,34 +58,34 @@ fn a_plot_holds_chains_feet_segments_grid_and_law_points() {
 }
 
 /// The warnings of two squares on each other, mapped into the plane.
-fn warnings(n: [usize; 2], settings: &str, place: impl Fn(f64, f64) -> [f64; 2] + Copy) -> Vec<String> {
-    let text = SCENE.replace("\"law\":", &format!("{settings} \"law\":"));
+fn warnings(n: [usize; 2], coupling: &str, place: impl Fn(f64, f64) -> [f64; 2] + Copy) -> Vec<String> {
+    let joint = faces("lower.top", "upper.bottom").coupling(coupling).law(springs());
+    let scene = joined(springs()).interface("joint", joint).step(compression(1));
     let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), Shape::Quadrilateral4, place);
-    let problem = bind(&text, vec![mesh(n[0], 0.0), mesh(n[1], 1.0)]).unwrap();
+    let problem = scene.bind(vec![mesh(n[0], 0.0), mesh(n[1], 1.0)]).unwrap();
     problem.warnings.iter().map(ToString::to_string).collect()
 }
 
 #[test]
 fn what_spoils_a_interface_is_warned_of_and_nothing_else() {
     let flat = |x: f64, y: f64| [x, y];
-    let pointwise = "\"coupling\": \"pointwise\",";
-    assert!(warnings([3, 5], "", flat).is_empty());
-    assert!(warnings([4, 4], pointwise, flat).is_empty(), "matched");
-    let found = warnings([3, 5], pointwise, flat);
+    assert!(warnings([3, 5], "projected", flat).is_empty());
+    assert!(warnings([4, 4], "pointwise", flat).is_empty(), "matched");
+    let found = warnings([3, 5], "pointwise", flat);
     assert!(found.len() == 1 && found[0].contains("oscillates"), "{found:?}");
     // coordinates near x₀ are multiples of ε x₀ or so: 2.2e-16 · 1e6 / 0.2 = 1.1e-9 of the smallest edge
-    let far = warnings([3, 5], "", |x, y| [x + 1e6, y]);
+    let far = warnings([3, 5], "projected", |x, y| [x + 1e6, y]);
     assert!(far.len() == 1, "{far:?}");
     assert!(
         far[0].contains("1.0e6 away from the origin, coordinates resolve 1e-9 of its smallest edge"),
         "{far:?}"
     );
-    assert!(warnings([3, 5], "", |x, y| [x + 1e3, y]).is_empty());
-    assert!(warnings([3, 5], "", |x, y| [1e6 * (x + 1.0), 1e6 * y]).is_empty(), "large, not far");
+    assert!(warnings([3, 5], "projected", |x, y| [x + 1e3, y]).is_empty());
+    assert!(warnings([3, 5], "projected", |x, y| [1e6 * (x + 1.0), 1e6 * y]).is_empty(), "large, not far");
     // leaning so that one angle is α, the scaled Jacobian is sin α
     let leaning = |degrees: f64| {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        warnings([3, 5], "", move |x, y| [x + cos * y, sin * y])
+        warnings([3, 5], "projected", move |x, y| [x + cos * y, sin * y])
     };
     assert!(leaning(18.0).is_empty(), "sin 18° = 0.309");
     let bad = leaning(12.0); // sin 12° = 0.208
@@ -100,16 +100,17 @@ fn what_spoils_a_interface_is_warned_of_and_nothing_else() {
 /// Linear elements in plane strain lock towards ν = 0.5; quadratic ones and plane stress do not.
 #[test]
 fn elements_that_lock_are_warned_of() {
-    let bound = |from: &str, to: &str, shape: Shape| {
-        let text = SCENE.replace("\"poisson\": 0.0", "\"poisson\": 0.495").replace(from, to);
+    let bound = |plane: &str, poisson: f64, shape: Shape| {
+        let scene =
+            joined(springs()).with("plane", plane).material("rock", 1e4, poisson).step(compression(1));
         let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), shape, |x, y| [x, y]);
-        bind(&text, vec![mesh(3, 0.0), mesh(5, 1.0)]).unwrap().warnings
+        scene.bind(vec![mesh(3, 0.0), mesh(5, 1.0)]).unwrap().warnings
     };
     for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
-        let told = bound("", "", shape);
+        let told = bound("strain", 0.495, shape);
         assert!(told.len() == 2 && told.iter().all(|warning| warning.code == Code::Locking), "{told:?}");
     }
-    assert!(bound("", "", Shape::Triangle6).is_empty());
-    assert!(bound("0.495", "0.49", Shape::Quadrilateral4).is_empty());
-    assert!(bound("\"strain\"", "\"stress\"", Shape::Quadrilateral4).is_empty());
+    assert!(bound("strain", 0.495, Shape::Triangle6).is_empty());
+    assert!(bound("strain", 0.49, Shape::Quadrilateral4).is_empty());
+    assert!(bound("stress", 0.495, Shape::Quadrilateral4).is_empty());
 }

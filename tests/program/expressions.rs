@@ -11,27 +11,31 @@ use midplane::error::Result;
 use midplane::mesh::{Group, Mesh};
 use midplane::problem::Problem;
 use midplane::shape::Shape;
+use serde_json::Value;
 
 /// The unit square with a material of ν = 0 and thickness 0.5, under the given steps.
-fn square(mesh: Mesh, steps: &str) -> Result<Problem> {
-    let text = format!(
-        r#"{{ "plane": "stress", "thickness": 0.5,
-          "subdomains": {{ "block": {{ "msh": "b", "material": "rock" }} }},
-          "materials": {{ "rock": {{ "young": 1e4, "poisson": 0.0, "density": 2.0 }} }},
-          "steps": [ {steps} ] }}"#
-    );
-    bind(&text, vec![mesh])
+fn square(mesh: Mesh, steps: impl IntoIterator<Item = Step>) -> Result<Problem> {
+    Scene::new("stress")
+        .with("thickness", 0.5)
+        .subdomain("block", "rock")
+        .material("rock", 1e4, 0.0)
+        .density("rock", 2.0)
+        .steps(steps)
+        .bind(vec![mesh])
 }
 
 fn unit(nx: usize, ny: usize, shape: Shape) -> Mesh {
     rectangle(&even(0.0, 1.0, nx), &even(0.0, 1.0, ny), shape, |x, y| [x, y])
 }
 
-const HELD: &str = r#""fix": { "block.bottom": ["x", "y"] }"#;
+/// A step with the bottom held.
+fn held(name: &str) -> Step {
+    step(name).fix("block.bottom", "xy")
+}
 
 /// Nodal forces at the end of the first step.
-fn forces(mesh: Mesh, load: &str) -> Vec<f64> {
-    let problem = square(mesh, &format!(r#"{{ "name": "go", {HELD}, {load} }}"#)).unwrap();
+fn forces(mesh: Mesh, load: Step) -> Vec<f64> {
+    let problem = square(mesh, [load]).unwrap();
     problem.steps[0].force(&problem.model, 1.0).unwrap()
 }
 
@@ -42,7 +46,7 @@ fn total(force: &[f64], direction: usize) -> f64 {
 /// t_x = 5 cos πx has no resultant on 0 < x < 1; t_y = 2 + 3x gives h (t_a/3 + t_b/6) L to the ends of every edge.
 #[test]
 fn a_traction_in_x_gives_its_exact_nodal_forces() {
-    let load = r#""load": { "block.top": { "traction": ["5*cos(pi*x)", "2 + 3*x"] } }"#;
+    let load = held("go").traction("block.top", "5*cos(pi*x)", "2 + 3*x");
     let force = forces(unit(8, 2, Shape::Quadrilateral4), load);
     close(total(&force, 0), 0.0, 1e-15, 5.0, "resultant of 5 cos πx");
     let t = |i: usize| 2.0 + 3.0 * i as f64 / 8.0;
@@ -57,10 +61,10 @@ fn a_traction_in_x_gives_its_exact_nodal_forces() {
 #[test]
 fn a_subdomain_force_that_varies_has_its_exact_resultant() {
     for shape in [Shape::Triangle3, Shape::Quadrilateral4] {
-        let force = forces(unit(2, 1, shape), r#""body_force": { "block": ["6*x*y", "x^4"] }"#);
+        let force = forces(unit(2, 1, shape), held("go").body_force("block", "6*x*y", "x^4"));
         close(total(&force, 0), 0.5 * 1.5, 1e-14, 1.0, "∫ 6 x y");
         close(total(&force, 1), 0.5 / 5.0, 1e-14, 1.0, "∫ x⁴");
-        let force = forces(unit(2, 1, shape), r#""gravity": [0, "-3*y"]"#);
+        let force = forces(unit(2, 1, shape), held("go").gravity(0, "-3*y"));
         close(total(&force, 1), -0.5 * 2.0 * 1.5, 1e-14, 1.0, "∫ ρ 3 y");
     }
 }
@@ -68,19 +72,15 @@ fn a_subdomain_force_that_varies_has_its_exact_resultant() {
 /// p(λ) as written, then as it was left, then ramps, then as written again.
 #[test]
 fn a_load_in_load_factor_is_not_ramped_and_stays_afterwards() {
-    let pressure = |name: &str, p: &str| {
-        format!(
-            r#"{{ "name": "{name}", "increments": 2, {HELD}, "load": {{ "block.top": {{ "pressure": {p} }} }} }}"#
-        )
-    };
+    let pressed = |name: &str, p: Value| held(name).increments(2).pressure("block.top", p);
     let steps = [
-        pressure("a", r#""4*load_factor^2 + 1""#),
-        r#"{ "name": "b", "increments": 2 }"#.into(),
-        pressure("c", "3"),
-        pressure("d", r#""1 + load_factor""#),
-        pressure("e", r#""2*2""#),
+        pressed("a", "4*load_factor^2 + 1".into()),
+        step("b").increments(2),
+        pressed("c", 3.into()),
+        pressed("d", "1 + load_factor".into()),
+        pressed("e", "2*2".into()),
     ];
-    let problem = square(unit(2, 2, Shape::Quadrilateral4), &steps.join(",")).unwrap();
+    let problem = square(unit(2, 2, Shape::Quadrilateral4), steps).unwrap();
     let (states, totals) = solve(&problem);
     assert_eq!(totals.factorisations, 1);
     for (state, p) in states.iter().zip([2.0, 5.0, 5.0, 5.0, 4.0, 3.0, 1.5, 2.0, 3.0, 4.0]) {
@@ -94,11 +94,12 @@ fn a_load_in_load_factor_is_not_ramped_and_stays_afterwards() {
 /// u(λ) as written; a later step ramps from where it was left.
 #[test]
 fn a_displacement_in_load_factor_is_the_total_one() {
-    let steps = format!(
-        r#"{{ "name": "wave", "increments": 4, {HELD}, "displace": {{ "block.top": {{ "y": "1e-3*(sin(2*pi*load_factor) + load_factor)" }} }} }},
-           {{ "name": "back", "increments": 2, "displace": {{ "block.top": {{ "y": 0 }} }} }}"#
-    );
-    let problem = square(unit(2, 2, Shape::Triangle3), &steps).unwrap();
+    let wave = "1e-3*(sin(2*pi*load_factor) + load_factor)";
+    let steps = [
+        held("wave").increments(4).displace("block.top", "y", wave),
+        step("back").increments(2).displace("block.top", "y", 0),
+    ];
+    let problem = square(unit(2, 2, Shape::Triangle3), steps).unwrap();
     let (states, _) = solve(&problem);
     for (state, u) in states.iter().zip([1.25, 0.5, -0.25, 1.0, 0.5, 0.0]) {
         for &node in &group(&problem, 0, "top") {
@@ -114,9 +115,8 @@ fn s_is_the_fraction_of_arc_length() {
         for turned in [0.0, 30.0, 210.0] {
             let mesh =
                 || rectangle(&even(0.0, 1.0, 4), &even(0.0, 1.0, 3), Shape::Triangle3, rotation(turned));
-            let load = |text: &str| {
-                forces(mesh(), &format!(r#""load": {{ "block.{group}": {{ "traction": ["{text}", 0] }} }}"#))
-            };
+            let curve = format!("block.{group}");
+            let load = |text: &str| forces(mesh(), held("go").traction(&curve, text, 0));
             // the turned square counts from the other end where x or, on a line of one x, y falls
             let (sin, cos) = f64::to_radians(turned).sin_cos();
             let along =
@@ -130,54 +130,47 @@ fn s_is_the_fraction_of_arc_length() {
         }
     }
     // displacements: s at nodes
-    let steps = |text: &str| {
-        format!(r#"{{ "name": "go", {HELD}, "displace": {{ "block.left": {{ "x": "1e-3*{text}" }} }} }}"#)
-    };
+    let moved = |text: &str| held("go").displace("block.left", "x", format!("1e-3*{text}"));
     let [by_s, by_y] = ["s", "y"].map(|text| {
-        let problem = square(unit(2, 5, Shape::Quadrilateral4), &steps(text)).unwrap();
+        let problem = square(unit(2, 5, Shape::Quadrilateral4), [moved(text)]).unwrap();
         problem.steps[0].prescribed(&vec![0.0; problem.model.dofs()], 1.0).unwrap()
     });
     assert!(by_s.iter().zip(&by_y).all(|(s, y)| (s - y).abs() < 1e-18) && by_y.contains(&1e-3));
 }
 
-/// What cannot be meant is refused with its key, and the place where a formula has no value with x and y.
+/// A formula that cannot be meant is refused with its key, and the place where a formula has no value with x and y.
 #[test]
 fn formulas_that_fail_where_they_act_are_refused() {
+    let go = || held("go");
     for (step, expected) in [
         (
-            r#""load": { "block.top": { "pressure": "sqrt(x - 0.5)" } }"#,
+            go().pressure("block.top", "sqrt(x - 0.5)"),
             "load.block.top.pressure: \"sqrt(x - 0.5)\" is NaN at x = ",
         ),
+        (go().body_force("block", 0, "1/(x - x)"), "body_force.block.1: \"1/(x - x)\" is inf at x = "),
         (
-            r#""body_force": { "block": [0, "1/(x - x)"] }"#,
-            "body_force.block.1: \"1/(x - x)\" is inf at x = ",
-        ),
-        (
-            r#""load": { "block.corner": { "force": ["ln(x)", 0] } }"#,
+            go().force("block.corner", "ln(x)", 0),
             "load.block.corner.force.0: \"ln(x)\" is -inf at x = 0, y = 0",
         ),
+        (go().increments(4).pressure("block.top", "1/(load_factor - 0.75)"), "is inf at x = "),
         (
-            r#""increments": 4, "load": { "block.top": { "pressure": "1/(load_factor - 0.75)" } }"#,
-            "is inf at x = ",
-        ),
-        (
-            r#""displace": { "block.top": { "y": "sqrt(0.4 - load_factor)" } }"#,
+            go().displace("block.top", "y", "sqrt(0.4 - load_factor)"),
             "displace.block.top.y: \"sqrt(0.4 - load_factor)\" is NaN at x = 0, y = 1, load_factor = 1",
         ),
         (
-            r#""load": { "block.rim": { "pressure": "s" } }"#,
+            go().pressure("block.rim", "s"),
             "load.block.rim.pressure: s in \"s\", but the curve is a closed loop",
         ),
         (
-            r#""displace": { "block.body": { "x": "s" } }"#,
+            go().displace("block.body", "x", "s"),
             "displace.block.body.x: s in \"s\", but \"block.body\" is a surface",
         ),
         (
-            r#""body_force": { "block": ["s", 0] }"#,
+            go().body_force("block", "s", 0),
             "body_force.block.0: s in \"s\", but a body has no such coordinate",
         ),
         (
-            r#""displace": { "block.left": { "x": "1e-3*y + 1e-6" } }"#,
+            go().displace("block.left", "x", "1e-3*y + 1e-6"),
             "\"block.left\" wants displacement_x = 0.000001 where \"block.bottom\" wants 0",
         ),
     ] {
@@ -188,7 +181,7 @@ fn formulas_that_fail_where_they_act_are_refused() {
         });
         let rim = Group::Edges(rim.collect());
         mesh.groups.insert("rim".into(), rim);
-        let error = square(mesh, &format!(r#"{{ "name": "go", {HELD}, {step} }}"#)).unwrap_err();
+        let error = square(mesh, [step]).unwrap_err();
         let message = error.to_string();
         assert!(message.contains(expected), "{message}\n  should contain\n{expected}");
         assert_eq!(error.exit_code(), 2);
@@ -198,8 +191,8 @@ fn formulas_that_fail_where_they_act_are_refused() {
 /// Groups that agree but for rounding, such as sin πx and 0 at x = 1, are no conflict.
 #[test]
 fn rounding_is_no_conflict_of_supports() {
-    let step = r#"{ "name": "go", "fix": { "block.bottom": ["x", "y"], "block.right": ["y"] }, "displace": { "block.top": { "y": "1e-3*sin(pi*x)" } } }"#;
-    square(unit(3, 3, Shape::Quadrilateral4), step).unwrap();
+    let sine = held("go").fix("block.right", "y").displace("block.top", "y", "1e-3*sin(pi*x)");
+    square(unit(3, 3, Shape::Quadrilateral4), [sine]).unwrap();
 }
 
 /// t₀(s) on an interface between two blocks that nothing else moves: it relaxes by the jump −t₀/K_N point by point where it is
@@ -209,15 +202,13 @@ fn an_initial_traction_varies_along_the_interface() {
     let lower = rectangle(&even(0.0, 2.0, 3), &even(0.0, 1.0, 2), Shape::Quadrilateral4, |x, y| [x, y]);
     let upper = rectangle(&even(0.0, 2.0, 5), &even(1.0, 2.0, 2), Shape::Triangle3, |x, y| [x, y]);
     for [n, t] in [["2*s", "1 - s"], ["x", "1 - x/2"]] {
-        let text = format!(
-            r#"{{ "plane": "strain",
-            "subdomains": {{ "lower": {{ "msh": "l", "material": "rock" }}, "upper": {{ "msh": "u", "material": "rock" }} }},
-            "materials": {{ "rock": {{ "young": 1e4, "poisson": 0.2 }} }},
-            "interfaces": {{ "joint": {{ "side_a": "lower.top", "side_b": "upper.bottom", "initial_traction": ["{n}", "{t}"],
-              "law": {{ "type": "elastic", "normal_stiffness": 1e5, "tangential_stiffness": 2e4 }} }} }},
-            "steps": [ {{ "name": "go", "fix": {{ "lower": ["x", "y"], "upper": ["x", "y"] }} }} ] }}"#
-        );
-        let problem = bind(&text, vec![lower.clone(), upper.clone()]).unwrap();
+        let joint = faces("lower.top", "upper.bottom").initial_traction(n, t).law(elastic(1e5, 2e4));
+        let scene = Scene::new("strain")
+            .subdomains(["lower", "upper"], "rock")
+            .material("rock", 1e4, 0.2)
+            .interface("joint", joint)
+            .step(step("go").fix("lower", "xy").fix("upper", "xy"));
+        let problem = scene.bind(vec![lower.clone(), upper.clone()]).unwrap();
         let (states, _) = solve(&problem);
         // chain A runs along +x with n up on its left
         for (point, traction) in

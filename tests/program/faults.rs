@@ -110,7 +110,7 @@ fn number(folder: &Path, place: &str) -> f64 {
     lines[row].split(',').nth(at).unwrap().parse().unwrap()
 }
 
-/// What differs from the expected.
+/// Differences from the expected.
 fn faults(case: &Path, expected: &Value) -> Vec<String> {
     let mut faults = Vec::new();
     let folder = copy(case);

@@ -5,10 +5,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use crate::common::squares::{SCENE, changed, midplane, said, squares};
+use crate::common::coulomb;
+use crate::common::squares::{
+    SCENE, changed, compression, joined, midplane, said, springs, squares, standing,
+};
 
 fn increments(n: usize) -> String {
-    changed(SCENE, "\"fix\"", &format!("\"increments\": {n}, \"fix\""))
+    joined(springs()).step(compression(n)).to_string()
 }
 
 /// The files of a folder with their bytes.
@@ -118,8 +121,8 @@ fn a_link_within_the_folder_is_told_and_what_it_leads_to_stays() {
 #[test]
 fn a_run_that_fails_leaves_good_results() {
     // as much shear as friction cannot carry: no equilibrium in the first increment
-    let slides = changed(SCENE, "\"elastic\"", "\"coulomb\", \"friction_coefficient\": 0.25");
-    let slides = changed(&slides, "\"pressure\": 10.0", "\"traction\": [5.0, -10.0]");
+    let push = standing("compression").traction("upper.top", 5.0, -10.0);
+    let slides = joined(coulomb(1e7, 1e7, 0.25)).step(push).to_string();
     let scenes = [
         (changed(SCENE, "\"young\": 1e4", "\"young\": -1e4"), 2),
         (changed(SCENE, "\"lower.top\"", "\"lower.tip\""), 2),
@@ -198,10 +201,13 @@ fn what_a_killed_run_was_writing_goes_and_what_it_was_putting_in_place_is_put_th
 #[test]
 fn a_study_keeps_its_folder_and_takes_no_other_file_for_its_tables() {
     let folder = squares(SCENE);
-    let study = r#"{ "scene": "scene.json",
-        "axes": { "young": { "values": [ { "materials.rock.young": 1e4 } ] } },
-        "measures": { "energy": { "take": "last", "of": "energy.stored" } } }"#;
-    std::fs::write(folder.path().join("study.json"), study).unwrap();
+    let study = serde_json::json!({
+        "scene": "scene.json",
+        "axes": { "young": { "values": [{ "materials.rock.young": 1e4 }] } },
+        "measures": { "energy": { "take": "last", "of": "energy.stored" } },
+    })
+    .to_string();
+    std::fs::write(folder.path().join("study.json"), &study).unwrap();
     let refused = midplane(folder.path(), &["study", "study.json", "-o", "."]);
     assert_eq!(refused.status.code(), Some(4), "{}", said(&refused));
     assert!(said(&refused).contains("study.json is in the way"), "{}", said(&refused));

@@ -5,24 +5,33 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use crate::common::squares::{SCENE, changed, midplane, said, squares};
+use crate::common::squares::{changed, compression, joined, midplane, said, squares};
+use crate::common::{Law, Scene, Step, coulomb, step};
+use serde_json::json;
 
-/// Two squares that a crack parts, pressed, sheared along a path, and let go.
-const STEPS: &str = r#""steps": [
-    { "name": "press", "increments": 2, "fix": { "lower.bottom": ["x", "y"] }, "load": { "upper.top": { "pressure": 2.0 } } },
-    { "name": "shear", "increments": 8, "displace": { "upper.top": { "x": 2e-3 } } },
-    { "name": "back", "increments": 3, "displace": { "upper.top": { "x": 0 } } }"#;
+/// Two squares that a crack parts, before they are pressed, sheared along a path, and let go.
+fn cracked(law: Law, fields: &str) -> Scene {
+    joined(law).with_in("output", "fields", fields)
+}
 
-fn cracking(fields: &str, control: &str) -> String {
-    let law = r#""cracking", "tensile_strength": 3, "cohesion": 4, "tan_friction": 0.8785,
-        "fracture_energy_i": 2e-3, "fracture_energy_iia": 2e-2, "dilatancy_stress": 0"#;
-    let start = SCENE.find("\"steps\"").unwrap();
-    let end = SCENE.find("\"output\"").unwrap();
-    let steps = STEPS.replace("\"increments\": 8", &format!("\"increments\": 8, \"control\": \"{control}\""));
-    let scene = format!("{}{steps} ],\n  {}", &SCENE[..start], &SCENE[end..]);
-    let scene = changed(&scene, "\"output\": {", &format!("\"output\": {{ \"fields\": \"{fields}\","));
-    let scene = changed(&scene, "1e7, \"tangential_stiffness\": 1e7", "1e6, \"tangential_stiffness\": 1e6");
-    changed(&scene, "\"elastic\"", law)
+fn rock() -> Law {
+    crate::common::cracking(1e6, 1e6, [3.0, 4.0, 0.8785], [2e-3, 2e-2]).with("cohesion", 4)
+}
+
+fn press(increments: usize) -> Step {
+    step("press").increments(increments).fix("lower.bottom", "xy").pressure("upper.top", 2.0)
+}
+
+fn shear(control: &str) -> Step {
+    step("shear").increments(8).control(control).displace("upper.top", "x", 2e-3)
+}
+
+fn back(increments: usize) -> Step {
+    step("back").increments(increments).displace("upper.top", "x", 0)
+}
+
+fn cracking(fields: &str, control: &str) -> Scene {
+    cracked(rock(), fields).steps([press(2), shear(control), back(3)])
 }
 
 fn run(folder: &Path, out: &str, more: &[&str]) -> Output {
@@ -91,7 +100,7 @@ fn killed(folder: &Path, out: &str, rows: usize, more: &[&str]) {
 #[test]
 fn a_killed_run_goes_on() {
     for (fields, control) in [("every", "load"), ("step", "auto"), ("last", "load"), ("none", "auto")] {
-        let folder = squares(&cracking(fields, control));
+        let folder = squares(cracking(fields, control));
         assert!(run(folder.path(), "alone", &[]).status.success());
         for (often, rows) in [("1", 2), ("1", 9), ("2", 5), ("60s", 4), ("never", 6)] {
             let out = format!("out_{often}_{rows}");
@@ -110,23 +119,14 @@ fn a_killed_run_goes_on() {
 fn a_run_goes_on_with_more_steps_and_with_other_steps_to_come() {
     for fields in ["every", "step", "last", "none"] {
         let scene = cracking(fields, "load");
-        let more = changed(
-            &scene,
-            "{ \"x\": 0 } } }",
-            "{ \"x\": 0 } } }, { \"name\": \"more\", \"increments\": 4, \"displace\": { \"upper.top\": { \"x\": -1e-3 } } }",
-        );
+        let more = scene.clone().step(step("more").increments(4).displace("upper.top", "x", -1e-3));
         // a part of the scene that was done stays, the last step is another
-        let other = changed(&scene, "\"increments\": 3", "\"increments\": 5");
-        let shorter = format!(
-            "{}{}",
-            &scene[..scene.find(",\n    { \"name\": \"back\"").unwrap()],
-            &scene[scene.find(" ],\n  \"output\"").unwrap()..]
-        );
-        for (name, changed, after) in [("more", &more, 13), ("other", &other, 10), ("shorter", &shorter, 10)]
-        {
+        let begun = cracked(rock(), fields).steps([press(2), shear("load")]);
+        let other = begun.clone().step(back(5));
+        for (name, changed, after) in [("more", &more, 13), ("other", &other, 10), ("shorter", &begun, 10)] {
             let folder = squares(&scene);
             assert!(run(folder.path(), "out", &[]).status.success());
-            std::fs::write(folder.path().join("scene.json"), changed).unwrap();
+            changed.write(folder.path());
             let output = run(folder.path(), "out", &["--resume"]);
             assert!(output.status.success(), "{fields} {name}: {}", said(&output));
             let told = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -140,18 +140,12 @@ fn a_run_goes_on_with_more_steps_and_with_other_steps_to_come() {
 #[test]
 fn a_run_without_an_equilibrium_goes_on_when_its_step_is_another() {
     // friction carries 2.5 in shear; the second step asks for more
-    let scene = changed(SCENE, "\"elastic\"", "\"coulomb\", \"friction_coefficient\": 0.25");
-    let scene = changed(
-        &scene,
-        "\"lower.bottom\": [\"y\"], \"lower.corner\": [\"x\"]",
-        "\"lower.bottom\": [\"x\", \"y\"]",
-    );
-    let scene = changed(
-        &scene,
-        "{ \"pressure\": 10.0 } }\n  }",
-        "{ \"pressure\": 10.0 } }\n  }, { \"name\": \"push\", \"increments\": 4, \"load\": { \"upper.top\": { \"traction\": [5, -10] } } }",
-    );
-    let folder = squares(&scene);
+    let scene = |x: f64| {
+        let compression = compression(1).fix("lower.bottom", "xy");
+        let push = step("push").increments(4).traction("upper.top", x, -10);
+        joined(coulomb(1e7, 1e7, 0.25)).step(compression).step(push)
+    };
+    let folder = squares(scene(5.0));
     let failed = run(folder.path(), "out", &[]);
     assert_eq!(failed.status.code(), Some(3), "{}", said(&failed));
     let first = contents(&folder.path().join("out"));
@@ -159,7 +153,7 @@ fn a_run_without_an_equilibrium_goes_on_when_its_step_is_another() {
     assert_eq!(again.status.code(), Some(3), "{}", said(&again));
     assert_eq!(said(&failed), said(&again));
     assert_eq!(first, contents(&folder.path().join("out")));
-    std::fs::write(folder.path().join("scene.json"), changed(&scene, "[5, -10]", "[2, -10]")).unwrap();
+    scene(2.0).write(folder.path());
     let output = run(folder.path(), "out", &["--resume"]);
     assert!(output.status.success(), "{}", said(&output));
     let told = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -188,20 +182,32 @@ fn a_checkpoint_of_another_scene_or_mesh_is_refused_with_what_differs() {
         let other: Vec<_> = before.iter().filter(|(name, bytes)| after.get(*name) != Some(bytes)).collect();
         assert!(other.is_empty(), "{:?}", other.iter().map(|(name, _)| name).collect::<Vec<_>>());
     };
-    for (from, to, told) in [
+    let steps = [press(2), shear("load"), back(3)];
+    for (other, told) in [
         (
-            "\"young\": 1e4",
-            "\"young\": 2e4",
+            scene.clone().material("rock", 2e4, 0.0),
             "another scene: materials.rock.young is 20000.0, it was 10000.0",
         ),
-        ("\"increments\": 2", "\"increments\": 3", "another scene: steps.0.increments is 3, it was 2"),
-        ("\"cohesion\": 4", "\"cohesion\": 5", "interfaces.joint.law.cohesion is 5, it was 4"),
-        ("\"top\": \"upper", "\"other\": \"upper", "output.history.top is not there"),
+        (
+            cracked(rock(), "every").steps([press(3), shear("load"), back(3)]),
+            "another scene: steps.0.increments is 3, it was 2",
+        ),
+        (
+            cracked(rock().with("cohesion", 5), "every").steps(steps),
+            "interfaces.joint.law.cohesion is 5, it was 4",
+        ),
+        (
+            scene.clone().with(
+                "output",
+                json!({ "fields": "every", "history": { "other": "upper.top.displacement_y" } }),
+            ),
+            "output.history.top is not there",
+        ),
     ] {
-        std::fs::write(folder.path().join("scene.json"), changed(&scene, from, to)).unwrap();
+        other.write(folder.path());
         refused(told);
     }
-    std::fs::write(folder.path().join("scene.json"), &scene).unwrap();
+    scene.write(folder.path());
     let geo = std::fs::read_to_string(folder.path().join("upper.geo")).unwrap();
     std::fs::write(folder.path().join("upper.geo"), changed(&geo, "n = {5", "n = {6")).unwrap();
     refused("is of another mesh of upper");
@@ -233,7 +239,7 @@ fn a_checkpoint_of_another_scene_or_mesh_is_refused_with_what_differs() {
 
 #[test]
 fn a_damaged_checkpoint_gives_way_to_the_one_before() {
-    let folder = squares(&cracking("every", "load"));
+    let folder = squares(cracking("every", "load"));
     assert!(run(folder.path(), "alone", &[]).status.success());
     killed(folder.path(), "out", 8, &["--checkpoint", "1"]);
     let latest = folder.path().join("out/checkpoint/latest");

@@ -8,7 +8,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::squares::{SCENE, changed, structured, write};
+use crate::common::squares::{SCENE, changed, compression, joined, springs, structured, write};
+use serde_json::json;
 
 /// Ends of standard output and error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,21 +75,19 @@ fn ended(folder: &Path, arguments: &[&str], ends: [End; 2]) -> (Option<i32>, [St
 #[test]
 fn every_command_ends_as_it_would() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = changed(SCENE, "\"fix\"", "\"increments\": 20, \"fix\"");
+    let scene = joined(springs()).step(compression(20));
     write(folder.path(), &structured(3), &structured(5), &scene);
     let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     put("bad.json", &changed(SCENE, "\"young\"", "\"yuong\""));
-    put(
-        "path.json",
-        r#"{ "program": [ { "n": { "control": "displacement", "start": 0, "end": 1e-6 },
-        "t": { "control": "displacement", "start": 0, "end": 0 }, "points": 400 } ] }"#,
-    );
-    put(
-        "study.json",
-        r#"{ "scene": "scene.json",
-        "axes": { "young": { "values": [ { "materials.rock.young": 1e4 }, { "materials.rock.young": 2e4 } ] } },
-        "measures": { "energy": { "take": "last", "of": "energy.stored" } } }"#,
-    );
+    let way = |end: f64| json!({ "control": "displacement", "start": 0, "end": end });
+    let path = json!({ "program": [{ "n": way(1e-6), "t": way(0.0), "points": 400 }] });
+    put("path.json", &path.to_string());
+    let study = json!({
+        "scene": "scene.json",
+        "axes": { "young": { "values": [{ "materials.rock.young": 1e4 }, { "materials.rock.young": 2e4 }] } },
+        "measures": { "energy": { "take": "last", "of": "energy.stored" } },
+    });
+    put("study.json", &study.to_string());
     let commands: [(&[&str], bool); 9] = [
         (&["run", ".", "-o", "out"], false),
         (&["run", "bad.json", "-o", "out"], false),
@@ -137,13 +136,8 @@ fn every_command_ends_as_it_would() {
 #[test]
 fn a_run_does_not_wait_for_its_reader() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = changed(SCENE, "\"fix\"", "\"increments\": 4000, \"fix\"");
-    write(
-        folder.path(),
-        &structured(3),
-        &structured(5),
-        &changed(&scene, "\"output\": {", "\"output\": { \"fields\": \"none\","),
-    );
+    let scene = joined(springs()).step(compression(4000)).with_in("output", "fields", "none");
+    write(folder.path(), &structured(3), &structured(5), &scene);
     let (mut reader, writer) = std::io::pipe().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_midplane"));
     command.current_dir(folder.path()).args(["run", ".", "-o", "out"]).stdout(writer).stderr(Stdio::null());

@@ -90,7 +90,7 @@ fn every_file_opens_with_what_it_is() {
 /// Files whose business is the plane: shapes, lines of interfaces, elements, and a law's way with one tangent.
 const KERNELS: [&str; 4] = ["shape/", "coupling/line/", "continuum/", "law/coulomb/"];
 
-/// What writes the plane into types or loops: pairs of numbers in public types, and a literal number of components.
+/// Lines that write the plane into types or loops: pairs of numbers in public types, and a literal number of components.
 fn plane(text: &str) -> Vec<String> {
     let pair = |line: &&str| {
         let line = line.trim_start();

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::squares::{SCENE, changed, midplane, structured, write};
+use crate::common::squares::{compression, joined, midplane, springs, standing, structured, write};
+use crate::common::{Scene, Step, coulomb};
 
 /// Increments of history.csv, and the load factor of each.
 fn rows(out: &Path) -> Vec<(usize, f64)> {
@@ -43,7 +44,7 @@ fn agree(out: &Path, name: &str) -> (usize, String) {
 }
 
 /// A folder with the squares in several increments.
-fn squares(scene: &str) -> tempfile::TempDir {
+fn squares(scene: &Scene) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &structured(3), &structured(5), scene);
     let name = folder.path().join("squares.json");
@@ -51,20 +52,18 @@ fn squares(scene: &str) -> tempfile::TempDir {
     folder
 }
 
-fn increments(n: usize) -> String {
-    changed(SCENE, "\"fix\"", &format!("\"increments\": {n}, \"fix\""))
+fn increments(n: usize) -> Scene {
+    joined(springs()).step(compression(n))
 }
 
-/// The scene with a joint that can carry `friction` of the pressure in shear, pushed sideways by half of it.
-fn slides(friction: f64) -> String {
-    let law = format!("\"coulomb\", \"friction_coefficient\": {friction}");
-    let scene = changed(SCENE, "\"elastic\"", &law);
-    let scene = changed(
-        &scene,
-        "\"normal_stiffness\": 1e7, \"tangential_stiffness\": 1e7",
-        "\"normal_stiffness\": 1e5, \"tangential_stiffness\": 1e5",
-    );
-    changed(&scene, "\"pressure\": 10.0", "\"traction\": [5.0, -10.0]")
+/// The squares with a joint that can carry `friction` of the pressure in shear.
+fn slides(friction: f64, push: Step) -> Scene {
+    joined(coulomb(1e5, 1e5, friction)).step(push)
+}
+
+/// They are pushed sideways by half of the pressure.
+fn push() -> Step {
+    standing("compression").traction("upper.top", 5.0, -10.0)
 }
 
 fn name(folder: &tempfile::TempDir) -> String {
@@ -82,9 +81,7 @@ fn a_run_and_its_files_have_the_same_rows() {
 #[test]
 fn so_do_those_of_a_run_without_an_equilibrium() {
     // nothing holds it from the first increment on, and from the third of five
-    for (scene, kept) in
-        [(slides(0.4), 1), (changed(&slides(0.25), "\"fix\"", "\"increments\": 5, \"fix\""), 1)]
-    {
+    for (scene, kept) in [(slides(0.4, push()), 1), (slides(0.25, push().increments(5)), 1)] {
         let folder = squares(&scene);
         for fields in ["every", "step", "last"] {
             let set = format!("output.fields={fields}");
@@ -172,13 +169,9 @@ fn signals_that_come_together_are_one_wish() {
 #[test]
 fn an_increment_under_way_is_left_at_once() {
     // one increment of thousands of parts: viscous steps on a path that snaps, under a tolerance that wants them small
-    let scene = changed(
-        &slides(0.3),
-        "\"traction\": [5.0, -10.0]",
-        "\"traction\": [\"2.9*load_factor\", \"-10 + 9*sin(30000*load_factor)^2\"]",
-    );
-    let scene = changed(&scene, "\"output\"", "\"solution\": { \"path_tolerance\": 1e-12 }, \"output\"");
-    let folder = squares(&scene);
+    let [x, y] = ["2.9*load_factor", "-10 + 9*sin(30000*load_factor)^2"];
+    let push = standing("compression").traction("upper.top", x, y);
+    let folder = squares(&slides(0.3, push).solution("path_tolerance", 1e-12));
     let out = folder.path().join("out");
     let child = start(folder.path(), &["run", "squares.json", "-o", "out"]);
     wait_for("no rows", || out.join("history.csv").is_file());
@@ -197,7 +190,7 @@ fn an_increment_under_way_is_left_at_once() {
 #[test]
 fn the_mesher_ends_with_the_run() {
     use std::os::unix::fs::PermissionsExt;
-    let folder = squares(SCENE);
+    let folder = squares(&increments(1));
     let fake = folder.path().join("slow_gmsh");
     std::fs::write(
         &fake,

@@ -5,11 +5,19 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use crate::common::{Scene, coulomb, faces, geometry, step};
+use serde_json::{Value, json};
+
 /// The strip in a folder of its own, with a study.
 pub(crate) struct Strip(tempfile::TempDir);
 
 impl Strip {
-    pub(crate) fn new(study: &str) -> Strip {
+    pub(crate) fn new(study: &Value) -> Strip {
+        Strip::of(&study.to_string())
+    }
+
+    /// The strip with the text of a study.
+    fn of(study: &str) -> Strip {
         let folder = tempfile::tempdir().unwrap();
         let geo = Path::new(env!("CARGO_MANIFEST_DIR")).join("geo/strip");
         for file in ["lower.geo", "upper.geo", "scene.json"] {
@@ -57,21 +65,20 @@ fn number(row: &HashMap<String, String>, column: &str) -> f64 {
 /// Claim: a study of limit loads measures the load factor at which nothing holds any more, and counts no such point as failed.
 #[test]
 fn a_limit_load_is_reached_and_has_not_failed() {
-    let strip = Strip::new(
-        r#"{ "axes": { "mu": { "key": "interfaces.joint.law.friction_coefficient", "values": [0.3, 0.6, 1.2] } },
-             "measures": { "limit": { "take": "reached", "reference": 0.3 } } }"#,
-    );
-    let scene = r#"{ // two blocks that slide on each other
-        "plane": "strain",
-        "subdomains": { "lower": { "geo": "lower.geo", "material": "m" }, "upper": { "geo": "upper.geo", "material": "m" } },
-        "materials": { "m": { "young": 1e4, "poisson": 0 } },
-        "interfaces": { "joint": { "side_a": "lower.top", "side_b": "upper.bottom", "law": { "type": "coulomb",
-            "normal_stiffness": 1e6, "tangential_stiffness": 1e6, "friction_coefficient": 0.5 } } },
-        "steps": [
-            { "name": "press", "fix": { "lower.bottom": ["x", "y"] }, "load": { "upper.top": { "traction": [0, -2] } } },
-            { "name": "push", "increments": 10, "load": { "upper.left": { "traction": [3.3333333333333335, 0] } } } ],
-        "output": { "fields": "none" } }"#;
-    std::fs::write(strip.path("scene.json"), scene).unwrap();
+    let strip = Strip::new(&json!({
+        "axes": { "mu": { "key": "interfaces.joint.law.friction_coefficient", "values": [0.3, 0.6, 1.2] } },
+        "measures": { "limit": { "take": "reached", "reference": 0.3 } },
+    }));
+    // two blocks that slide on each other
+    let scene = Scene::new("strain")
+        .body("lower", geometry("lower.geo", "m"))
+        .body("upper", geometry("upper.geo", "m"))
+        .material("m", 1e4, 0.0)
+        .interface("joint", faces("lower.top", "upper.bottom").law(coulomb(1e6, 1e6, 0.5)))
+        .step(step("press").fix("lower.bottom", "xy").traction("upper.top", 0, -2))
+        .step(step("push").increments(10).traction("upper.left", 3.3333333333333335, 0))
+        .with_in("output", "fields", "none");
+    scene.write(strip.0.path());
     let said = strip.study("out", &[]);
     assert!(said.contains("3 points, 0 of them failed"), "{said}");
     let rows = strip.table("out");
@@ -84,16 +91,28 @@ fn a_limit_load_is_reached_and_has_not_failed() {
     assert!(number(&rows[0], "limit.error") < 0.2);
 }
 
-pub(crate) const AXES: &str = r#""axes": {
-    "lower": { "parameter": "lower.edges", "values": [4, 6, 8] },
-    "upper": { "parameter": "upper.edges", "range": [5, 9], "count": 2, "whole": true } }"#;
-pub(crate) const ENERGY: &str =
-    r#""energy": { "take": "last", "of": "energy.stored", "reference": 0.0008920729575 }"#;
+/// Axes of the two meshes, three by two points.
+pub(crate) fn axes() -> Value {
+    json!({
+        "lower": { "parameter": "lower.edges", "values": [4, 6, 8] },
+        "upper": { "parameter": "upper.edges", "range": [5, 9], "count": 2, "whole": true },
+    })
+}
+
+/// The stored energy beside its exact value.
+pub(crate) fn energy() -> Value {
+    json!({ "energy": { "take": "last", "of": "energy.stored", "reference": 0.0008920729575 } })
+}
+
+/// The study of both.
+pub(crate) fn meshes() -> Value {
+    json!({ "axes": axes(), "measures": energy() })
+}
 
 /// A k × l study of two meshes prepares k + l bodies, and its points have the energies of single runs.
 #[test]
 fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
-    let strip = Strip::new(&format!("{{ {AXES}, \"measures\": {{ {ENERGY} }} }}"));
+    let strip = Strip::new(&meshes());
     let printed = strip.study("out", &[]);
     assert!(printed.contains("6 points, 0 of them failed"), "{printed}");
     let rows = strip.table("out");
@@ -124,10 +143,11 @@ fn points_share_what_they_can_and_keep_the_answers_of_single_runs() {
 /// Points that differ in the law only share everything before it: meshes, interfaces, stiffness, factors.
 #[test]
 fn points_that_differ_in_the_law_share_everything_before_it() {
-    let strip = Strip::new(
-        r#"{ "axes": { "k": { "key": ["interfaces.joint.law.normal_stiffness",
-            "interfaces.joint.law.tangential_stiffness"], "log_range": [1e3, 1e7], "count": 5 } } }"#,
-    );
+    let stiffness =
+        ["normal_stiffness", "tangential_stiffness"].map(|key| format!("interfaces.joint.law.{key}"));
+    let strip = Strip::new(&json!({
+        "axes": { "k": { "key": stiffness, "log_range": [1e3, 1e7], "count": 5 } },
+    }));
     strip.study("out", &["--threads", "1"]);
     let rows = strip.table("out");
     for (k, row) in rows.iter().enumerate() {
@@ -143,20 +163,22 @@ fn points_that_differ_in_the_law_share_everything_before_it() {
 /// The L2 error of the tractions falls by the square of the mesh size or faster, with T3 on both sides.
 #[test]
 fn a_field_is_compared_with_formulas() {
-    let strip = Strip::new(
-        r#"{ "set": { "subdomains.lower.parameters.order": 1, "subdomains.upper.parameters.order": 1 },
-          "axes": { "density": { "values": [
+    let strip = Strip::new(&json!({
+        "set": { "subdomains.lower.parameters.order": 1, "subdomains.upper.parameters.order": 1 },
+        "axes": { "density": { "values": [
             { "subdomains.lower.parameters.edges": 8, "subdomains.lower.parameters.rows": 6,
               "subdomains.upper.parameters.edges": 12, "subdomains.upper.parameters.rows": 7 },
             { "subdomains.lower.parameters.edges": 16, "subdomains.lower.parameters.rows": 12,
-              "subdomains.upper.parameters.edges": 24, "subdomains.upper.parameters.rows": 14 } ] } },
-          "measures": {
+              "subdomains.upper.parameters.edges": 24, "subdomains.upper.parameters.rows": 14 },
+        ] } },
+        "measures": {
             "traction": { "take": "error", "field": "traction", "of": "joint",
-              "exact": ["-2.406874455*cos(pi*x)", "1.170396232*sin(pi*x)"] },
+                "exact": ["-2.406874455*cos(pi*x)", "1.170396232*sin(pi*x)"] },
             "jump": { "take": "error", "field": "jump", "of": "joint",
-              "exact": ["-2.406874455/2e4*cos(pi*x)", "1.170396232/1e4*sin(pi*x)"] },
-            "rigid": { "take": "error", "field": "displacement", "of": "lower", "exact": [1, 0] } } }"#,
-    );
+                "exact": ["-2.406874455/2e4*cos(pi*x)", "1.170396232/1e4*sin(pi*x)"] },
+            "rigid": { "take": "error", "field": "displacement", "of": "lower", "exact": [1, 0] },
+        },
+    }));
     strip.study("out", &[]);
     let text = std::fs::read_to_string(strip.path("out/study.json")).unwrap();
     let study: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -173,20 +195,21 @@ fn a_field_is_compared_with_formulas() {
 #[test]
 fn the_finest_runs_stand_for_an_exact_answer() {
     let refined = |n: usize| {
-        let part = |subdomain: &str, edges: usize, rows: usize| {
-            let key = format!("\"subdomains.{subdomain}.parameters");
-            format!("{key}.edges\": {edges}, {key}.rows\": {rows}, {key}.order\": 1")
-        };
-        format!("{{ {}, {} }}", part("lower", 8 * n, 6 * n), part("upper", 12 * n, 7 * n))
+        json!({
+            "subdomains.lower.parameters.edges": 8 * n,
+            "subdomains.lower.parameters.rows": 6 * n,
+            "subdomains.lower.parameters.order": 1,
+            "subdomains.upper.parameters.edges": 12 * n,
+            "subdomains.upper.parameters.rows": 7 * n,
+            "subdomains.upper.parameters.order": 1,
+        })
     };
-    let strip = Strip::new(&format!(
-        r#"{{ "axes": {{ "lower": {{ "parameter": "lower.edges", "values": [4] }} }},
-           "measures": {{ "energy": {{ "take": "last", "of": "energy.stored" }} }},
-           "reference": {{ "runs": [{}, {}, {}] }} }}"#,
-        refined(1),
-        refined(2),
-        refined(4)
-    ));
+    let runs = [1, 2, 4].map(refined);
+    let strip = Strip::new(&json!({
+        "axes": { "lower": { "parameter": "lower.edges", "values": [4] } },
+        "measures": { "energy": { "take": "last", "of": "energy.stored" } },
+        "reference": { "runs": runs },
+    }));
     strip.study("out", &[]);
     let text = std::fs::read_to_string(strip.path("out/study.json")).unwrap();
     let study: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -200,7 +223,7 @@ fn the_finest_runs_stand_for_an_exact_answer() {
 /// Point by point, as a cluster would, or side by side: the same numbers; and nothing is run twice.
 #[test]
 fn single_points_and_an_interrupted_study_are_picked_up() {
-    let strip = Strip::new(&format!("{{ {AXES}, \"measures\": {{ {ENERGY} }} }}"));
+    let strip = Strip::new(&meshes());
     assert_eq!(
         String::from_utf8_lossy(&strip.midplane(&["study", "study.json", "--count"]).stdout).trim(),
         "6"
@@ -228,10 +251,10 @@ fn single_points_and_an_interrupted_study_are_picked_up() {
 /// A point without equilibrium or with a mesh that cannot be made is in the table, infinitely wrong.
 #[test]
 fn failed_points_stay_in_the_table() {
-    let strip = Strip::new(&format!(
-        r#"{{ "axes": {{ "height": {{ "parameter": "lower.height", "values": [0.8, 0] }} }},
-            "measures": {{ {ENERGY} }} }}"#
-    ));
+    let strip = Strip::new(&json!({
+        "axes": { "height": { "parameter": "lower.height", "values": [0.8, 0] } },
+        "measures": energy(),
+    }));
     assert!(strip.study("out", &[]).contains("2 points, 1 of them failed"));
     let text = std::fs::read_to_string(strip.path("out/study.csv")).unwrap();
     let last = text.lines().last().unwrap();
@@ -241,10 +264,12 @@ fn failed_points_stay_in_the_table() {
 /// A process of its own: the time from outside, every repeat, and its memory.
 #[test]
 fn points_have_processes_of_their_own() {
-    let strip = Strip::new(&format!(
-        r#"{{ "axes": {{ "edges": {{ "parameter": "lower.edges", "values": [4, 6] }} }},
-            "measures": {{ {ENERGY} }}, "process": "own", "repeat": 3 }}"#
-    ));
+    let strip = Strip::new(&json!({
+        "axes": { "edges": { "parameter": "lower.edges", "values": [4, 6] } },
+        "measures": energy(),
+        "process": "own",
+        "repeat": 3,
+    }));
     strip.study("out", &[]);
     for row in strip.table("out") {
         assert_eq!((row["status"].as_str(), row["runs"].as_str()), ("done", "3"));
@@ -277,14 +302,14 @@ fn bad_input_is_refused_with_place_and_help() {
         (r#"{ "measures": { "t": { "take": "last", "off": "x" } } }"#, "measures.t: unknown key \"off\""),
         (r#"{ "reference": { "runs": [], "ratio": 1 } }"#, "reference.ratio: a ratio of 1"),
     ] {
-        let strip = Strip::new(study);
+        let strip = Strip::of(study);
         let output = strip.midplane(&["study", "study.json"]);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{study}: {message}");
         assert!(message.contains(expected), "{message}\n  should contain\n{expected}");
         assert!(!strip.path("results").exists(), "{study}");
     }
-    let strip = Strip::new(&format!("{{ {AXES} }}"));
+    let strip = Strip::new(&json!({ "axes": axes() }));
     let output = strip.midplane(&["study", "study.json", "--point", "6"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(
@@ -317,9 +342,10 @@ fn mesher(strip: &Strip, version: &str) -> String {
 /// An outcome stands as long as its mesh would: what the .geo includes and the mesher's version decide it too.
 #[test]
 fn outcomes_are_as_old_as_their_meshes() {
-    let strip = Strip::new(&format!(
-        r#"{{ "axes": {{ "edges": {{ "parameter": "lower.edges", "values": [4, 6] }} }}, "measures": {{ {ENERGY} }} }}"#
-    ));
+    let strip = Strip::new(&json!({
+        "axes": { "edges": { "parameter": "lower.edges", "values": [4, 6] } },
+        "measures": energy(),
+    }));
     let [one, other] = ["4.8.4", "9.9.9"].map(|version| mesher(&strip, version));
     let there = |gmsh: &str| strip.study("out", &["--gmsh", gmsh]).contains("2 of 2 points are there");
     assert!(!there(&one) && there(&one));
@@ -337,8 +363,8 @@ fn outcomes_are_as_old_as_their_meshes() {
 
 #[test]
 fn an_equals_sign_in_a_measure_is_refused_with_the_way_out() {
-    let strip =
-        Strip::new(r#"{ "measures": { "u": { "take": "last", "of": "upper.a=b.displacement_y" } } }"#);
+    let of = "upper.a=b.displacement_y";
+    let strip = Strip::new(&json!({ "measures": { "u": { "take": "last", "of": of } } }));
     let output = strip.midplane(&["study", "study.json", "-o", "out"]);
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{message}");

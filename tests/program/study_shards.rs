@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::study::{AXES, ENERGY, Strip};
+use crate::study::{Strip, meshes};
+use serde_json::json;
 
 /// Rows without times and without what points of one process share.
 fn answers(strip: &Strip, out: &str) -> Vec<Vec<(String, String)>> {
@@ -18,7 +19,7 @@ fn answers(strip: &Strip, out: &str) -> Vec<Vec<(String, String)>> {
 }
 
 fn strip() -> Strip {
-    Strip::new(&format!("{{ {AXES}, \"measures\": {{ {ENERGY} }} }}"))
+    Strip::new(&meshes())
 }
 
 #[test]
@@ -72,10 +73,11 @@ fn a_missing_shard_is_told_and_not_run() {
 
 #[test]
 fn a_reference_stands_only_if_all_its_runs_are_there() {
-    let strip = Strip::new(
-        r#"{ "measures": { "energy": { "take": "last", "of": "energy.stored" } }, "reference": { "runs": [
-            { "subdomains.lower.parameters.edges": 8 }, { "subdomains.lower.parameters.edges": 16 } ] } }"#,
-    );
+    let edges = "subdomains.lower.parameters.edges";
+    let strip = Strip::new(&json!({
+        "measures": { "energy": { "take": "last", "of": "energy.stored" } },
+        "reference": { "runs": [{ edges: 8 }, { edges: 16 }] },
+    }));
     strip.study("out", &["--shard", "0/2"]); // the point and the second run
     let collect = || strip.study("out", &["--collect"]);
     assert!(!collect().contains("reference energy"));
