@@ -88,18 +88,12 @@ fn a_clamped_end_carries_no_spurious_normal_traction() {
 /// ```
 /// Largest error of the traction within 0.3 of the junction, of the largest stress. `e`: edges of the blocks in x and y.
 fn junction(e: [[usize; 2]; 4], shape: Shape, k: f64, t: bool) -> f64 {
-    let flat = |x: f64, y: f64| [x, y];
     let at = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
     let names = ["sw", "se", "nw", "ne"];
     let sides = [["left", "bottom"], ["right", "bottom"], ["left", "top"], ["right", "top"]];
     let mut meshes: Vec<_> = (0..4)
         .map(|i| {
-            rectangle(
-                &even(at[i][0], at[i][0] + 1.0, e[i][0]),
-                &even(at[i][1], at[i][1] + 1.0, e[i][1]),
-                shape,
-                flat,
-            )
+            even_block([at[i][0], at[i][0] + 1.0], [at[i][1], at[i][1] + 1.0], [e[i][0], e[i][1]], shape)
         })
         .collect();
     let mut names: Vec<&str> = names.to_vec();
@@ -115,7 +109,7 @@ fn junction(e: [[usize; 2]; 4], shape: Shape, k: f64, t: bool) -> f64 {
         meshes.truncate(2);
         names.truncate(2);
         sides.truncate(2);
-        meshes.push(rectangle(&even(0.0, 2.0, 2 * e[2][0] + 1), &even(1.0, 2.0, e[2][1]), shape, flat));
+        meshes.push(even_block([0.0, 2.0], [1.0, 2.0], [2 * e[2][0] + 1, e[2][1]], shape));
         names.push("top");
         sides.push(vec!["left", "right", "top"]);
         ints = vec![("sw.right", "se.left"), ("sw.top", "top.bottom"), ("se.top", "top.bottom")];
@@ -176,9 +170,8 @@ fn next_to_junctions_tractions_follow_the_field() {
 #[test]
 fn a_support_that_comes_later_makes_the_same_grid() {
     let joint = |steps: Vec<Step>| {
-        let layer = |y: [f64; 2], n: usize| {
-            rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 3), Shape::Quadrilateral4, |x, y| [x, y])
-        };
+        let layer =
+            |y: [f64; 2], n: usize| even_block([0.0, 2.0], [y[0], y[1]], [n, 3], Shape::Quadrilateral4);
         let meshes = vec![layer([0.0, 0.5], 12), layer([0.5, 1.0], 13)];
         let problem = layers(1e9).steps(steps).bind(meshes).unwrap();
         problem.model.interfaces[0].coupling.jump.clone()

@@ -122,9 +122,8 @@ fn layers_that_spread_alike_slide_nowhere() {
     {
         for shape in SHAPES {
             for pair in PAIRS {
-                let flat = |x: f64, y: f64| [x, y];
-                let lower = rectangle(&even(0.0, w, pair.0), &even(0.0, h1, 3), shape, flat);
-                let upper = rectangle(&even(0.0, w, pair.1), &even(h1, h1 + h2, 2), shape, flat);
+                let lower = even_block([0.0, w], [0.0, h1], [pair.0, 3], shape);
+                let upper = even_block([0.0, w], [h1, h1 + h2], [pair.1, 2], shape);
                 let compression = step("compression").fix("lower.bottom", "y").fix("lower.corner", "x");
                 let scene = Scene::new(plane)
                     .with("thickness", 0.5)

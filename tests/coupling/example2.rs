@@ -29,7 +29,7 @@ fn scene(sigma: f64, scale: f64, coupling: &str, strategy: &str, tolerance: f64)
 }
 
 fn layers(shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
-    let layer = |n: usize, y: f64| rectangle(&even(0.0, 0.2, n), &even(y, y + 0.1, 2), shape, |x, y| [x, y]);
+    let layer = |n: usize, y: f64| even_block([0.0, 0.2], [y, y + 0.1], [n, 2], shape);
     vec![layer(pair.0, -0.1), layer(pair.1, 0.0)]
 }
 

@@ -38,9 +38,7 @@ fn pressures<'a>(problem: &'a Problem, state: &'a ModelState) -> impl Iterator<I
 #[test]
 fn layers_that_overlap_press_on_each_other() {
     let overlap = 1e-4;
-    let block = |n: usize, y: f64| {
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let block = |n: usize, y: f64| even_block([0.0, 1.0], [y, y + 0.5], [n, 3], Shape::Quadrilateral4);
     // strained in plane strain and free at the sides: E/(1 − ν²)
     let exact = -overlap / (1.0 * (1.0 - NU * NU) / E + 1.0 / KN);
     for (gap, y) in [(json!("geometry"), -overlap), (json!(-1e-4), 0.0)] {

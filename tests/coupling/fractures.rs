@@ -16,7 +16,7 @@ const SHAPES: [Shape; 4] = [Shape::Triangle3, Shape::Quadrilateral4, Shape::Tria
 
 /// A square with a curve `crack` of the edges inside whose ends both fit.
 fn square(shape: Shape, n: usize, on: impl Fn([f64; 2]) -> bool) -> Mesh {
-    let mut mesh = rectangle(&even(0.0, 1.0, n), &even(0.0, 1.0, n), shape, |x, y| [x, y]);
+    let mut mesh = even_block([0.0, 1.0], [0.0, 1.0], [n, n], shape);
     let mut edges: Vec<Facet> = Vec::new();
     for cell in 0..mesh.cells.len() {
         let (nodes, shape) = (mesh.cells.nodes(cell), mesh.cells.shapes[cell]);
@@ -83,7 +83,7 @@ fn stiff_springs_give_the_uncracked_body_back() {
             || (x - 0.6).abs() < 1e-9 && (0.25..0.95).contains(&y)
     };
     for shape in SHAPES {
-        let whole = rectangle(&even(0.0, 1.0, 10), &even(0.0, 1.0, 10), shape, |x, y| [x, y]);
+        let whole = even_block([0.0, 1.0], [0.0, 1.0], [10, 10], shape);
         let uncracked = moved(&rock().step(pulled("rock.top")).bind(vec![whole]).unwrap());
         let problem = opened(elastic(1e12, 1e12), square(shape, 10, cross));
         assert_eq!(problem.model.interfaces.len(), 4, "four branches");
@@ -100,7 +100,7 @@ fn a_line_through_the_body_is_the_same_as_two_bodies() {
     for shape in SHAPES {
         let mut cut = square(shape, 8, |[_, y]| (y - 0.5).abs() < 1e-9);
         // the halves of the two bodies as they stand
-        let half = |y: [f64; 2]| rectangle(&even(0.0, 1.0, 8), &even(y[0], y[1], 4), shape, |x, y| [x, y]);
+        let half = |y: [f64; 2]| even_block([0.0, 1.0], [y[0], y[1]], [8, 4], shape);
         cut.groups.sort_keys();
         let one = opened(springs(), cut);
         // triangles: a linear grid between two bodies, unless it is asked for

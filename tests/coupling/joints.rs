@@ -225,8 +225,8 @@ fn b22_sides_that_touch_at_a_point_or_not_at_all() {
 #[test]
 fn b23_partial_overlap_couples_the_common_length_and_says_so() {
     let blocks = [
-        ("a", rectangle(&even(0.3, 1.7, 9), &even(-0.5, 0.0, 3), Shape::Quadrilateral4, |x, y| [x, y])),
-        ("b", rectangle(&even(0.0, 1.0, 7), &even(0.0, 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])),
+        ("a", even_block([0.3, 1.7], [-0.5, 0.0], [9, 3], Shape::Quadrilateral4)),
+        ("b", even_block([0.0, 1.0], [0.0, 0.5], [7, 3], Shape::Quadrilateral4)),
     ];
     let press = step("press").fix("a.bottom", "xy").fix("b.left", "x").pressure("b.top", P);
     let problem = bound(rock(&blocks).interface("joint", joined(KN, "b.bottom")).step(press), blocks);
@@ -286,9 +286,8 @@ fn b25_two_polygons_of_one_arc_carry_nothing_without_load() {
 fn b26_t_junction_of_one_side_against_two_blocks() {
     for shape in [Shape::Quadrilateral4, Shape::Triangle6] {
         for split in [false, true] {
-            let block = |x: [f64; 2], n: usize, y: [f64; 2]| {
-                rectangle(&even(x[0], x[1], n), &even(y[0], y[1], 2), shape, |x, y| [x, y])
-            };
+            let block =
+                |x: [f64; 2], n: usize, y: [f64; 2]| even_block([x[0], x[1]], [y[0], y[1]], [n, 2], shape);
             let blocks = [
                 ("a", block([0.0, 1.0], 7, [-0.5, 0.0])),
                 ("b", block([0.0, 0.45], 5, [0.0, 0.5])),

@@ -359,8 +359,8 @@ fn patterns_choose_pairs_and_sides() {
 /// ```
 #[test]
 fn a_pair_that_touches_twice_has_two_interfaces() {
-    let a = rectangle(&even(0.0, 3.0, 5), &even(1.0, 2.0, 2), Shape::Quadrilateral4, flat);
-    let mut b = rectangle(&even(0.0, 3.0, 6), &even(0.0, 1.0, 2), Shape::Quadrilateral4, flat);
+    let a = even_block([0.0, 3.0], [1.0, 2.0], [5, 2], Shape::Quadrilateral4);
+    let mut b = even_block([0.0, 3.0], [0.0, 1.0], [6, 2], Shape::Quadrilateral4);
     // without the two upper cells in the middle
     let kept: Vec<usize> = (0..b.cells.len()).filter(|c| ![8, 9].contains(c)).collect();
     b.groups.retain(|name, _| name != "top");
@@ -414,8 +414,7 @@ fn curved_boundaries_touch_and_slots_do_not() {
         assert!(found[0].edges[0].iter().all(|edge| right.iter().any(|r| r.nodes() == edge.nodes())));
     }
     // a slot as wide as a hundredth of an edge is no interface, nor is a point
-    let square =
-        |x: f64, y: f64| rectangle(&even(x, x + 1.0, 4), &even(y, y + 1.0, 4), Shape::Triangle3, flat);
+    let square = |x: f64, y: f64| even_block([x, x + 1.0], [y, y + 1.0], [4, 4], Shape::Triangle3);
     for (x, y) in [(1.0025, 0.0), (1.0, 1.0), (-1.0, 1.0), (3.0, 0.0)] {
         assert!(touching(&[&square(0.0, 0.0), &square(x, y)], &every).unwrap().is_empty(), "{x}, {y}");
     }

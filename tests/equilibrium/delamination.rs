@@ -34,9 +34,8 @@ fn one_mode(softening: &str) -> Law {
 }
 
 fn beams(bond: Law, crack: f64, step: Step) -> Problem {
-    let flat = |x: f64, y: f64| [x, y];
     let arm = |y: f64, n: usize| {
-        let mut mesh = rectangle(&even(0.0, LENGTH, n), &even(y, y + HEIGHT, 2), Shape::Quadrilateral8, flat);
+        let mut mesh = even_block([0.0, LENGTH], [y, y + HEIGHT], [n, 2], Shape::Quadrilateral8);
         let near = |x: f64, y: f64| {
             let far = |p: &[f64; 3]| (p[0] - x).hypot(p[1] - y);
             let points = mesh.points.iter().enumerate();

@@ -204,9 +204,8 @@ fn water_opens_its_own_way() {
             .pressure("b.bottom", -pressed)
             .pressure("joint", flow(w0, MU).ends(p0, p1));
         // a strip so thin that it bends with the joint
-        let part = |y: [f64; 2], n: usize| {
-            rectangle(&even(0.0, 2.0, n), &even(y[0], y[1], 1), Shape::Quadrilateral4, |x, y| [x, y])
-        };
+        let part =
+            |y: [f64; 2], n: usize| even_block([0.0, 2.0], [y[0], y[1]], [n, 1], Shape::Quadrilateral4);
         let parts = vec![("a", part([-1e-9, 0.0], n)), ("b", part([0.0, 1e-9], n))];
         let scene = scene(&parts)
             .interface("joint", faces("a.top", "b.bottom").law(elastic(k, k)))

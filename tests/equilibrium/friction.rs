@@ -12,7 +12,7 @@ const SLIP: u8 = 2;
 
 /// A block from `y` to `y` + `height` above x from 0 to `width`.
 fn block(width: f64, y: f64, height: f64, n: usize, rows: usize, shape: Shape) -> Mesh {
-    rectangle(&even(0.0, width, n), &even(y, y + height, rows), shape, |x, y| [x, y])
+    even_block([0.0, width], [y, y + height], [n, rows], shape)
 }
 
 /// Two bodies with friction; `young` of the lower and upper one, `law` [K_N, K_T, μ].

@@ -26,9 +26,7 @@ fn check(gap: impl Into<Value>, y: f64) {
         .interface("joint", faces("a.top", "b.bottom").with("initial_gap", gap).law(coulomb(KN, KN, 0.5)))
         .step(to(step("near").fix("a.bottom", "xy"), -8e-4))
         .step(to(step("close"), -2e-3));
-    let block = |n: usize, y: f64| {
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let block = |n: usize, y: f64| even_block([0.0, 1.0], [y, y + 0.5], [n, 3], Shape::Quadrilateral4);
     let problem = scene.bind(vec![block(4, -0.5), block(6, y)]).unwrap();
     let (states, _) = solve(&problem);
     assert_eq!(states.len(), 8);

@@ -45,7 +45,7 @@ fn meshes() -> Vec<Mesh> {
     let mut y = 0.0;
     let shapes = [Shape::Quadrilateral8, Shape::Triangle3, Shape::Quadrilateral4];
     let layer = |((height, _), (n, shape)): ((f64, f64), (usize, Shape))| {
-        let mesh = rectangle(&even(0.0, WIDTH, n), &even(y, y + height, 2), shape, |x, y| [x, y]);
+        let mesh = even_block([0.0, WIDTH], [y, y + height], [n, 2], shape);
         y += height;
         mesh
     };

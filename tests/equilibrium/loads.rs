@@ -26,9 +26,8 @@ fn two_squares(joint: Interface, steps: impl IntoIterator<Item = Step>) -> Scene
 }
 
 fn bound(scene: &Scene) -> Result<Problem> {
-    let flat = |x: f64, y: f64| [x, y];
-    let lower = rectangle(&even(0.0, 1.0, 3), &even(0.0, 1.0, 3), Shape::Quadrilateral4, flat);
-    let upper = rectangle(&even(0.0, 1.0, 5), &even(1.0, 2.0, 4), Shape::Triangle3, flat);
+    let lower = even_block([0.0, 1.0], [0.0, 1.0], [3, 3], Shape::Quadrilateral4);
+    let upper = even_block([0.0, 1.0], [1.0, 2.0], [5, 4], Shape::Triangle3);
     scene.bind(vec![lower, upper])
 }
 

@@ -27,9 +27,8 @@ fn scene(young: f64, fraction: f64, increments: usize, strategy: &str) -> Scene 
 }
 
 fn subdomains() -> Vec<midplane::mesh::Mesh> {
-    let subdomain = |edges: usize, y: f64| {
-        rectangle(&even(0.0, 0.1, edges), &even(y, y + 0.05, 2), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let subdomain =
+        |edges: usize, y: f64| even_block([0.0, 0.1], [y, y + 0.05], [edges, 2], Shape::Quadrilateral4);
     vec![subdomain(5, -0.05), subdomain(7, 0.0)]
 }
 

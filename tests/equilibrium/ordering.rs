@@ -8,9 +8,8 @@ use midplane::solver::{Order, Symbolic, nested_dissection};
 
 /// Two layers 2 × 0.5 with a and b edges along their interface.
 fn layers(a: usize, b: usize, shape: Shape) -> midplane::error::Result<Problem> {
-    let flat = |x: f64, y: f64| [x, y];
-    let lower = rectangle(&even(0.0, 2.0, a), &even(-0.5, 0.0, a / 4), shape, flat);
-    let upper = rectangle(&even(0.0, 2.0, b), &even(0.0, 0.5, b / 4), shape, flat);
+    let lower = even_block([0.0, 2.0], [-0.5, 0.0], [a, a / 4], shape);
+    let upper = even_block([0.0, 2.0], [0.0, 0.5], [b, b / 4], shape);
     let scene = Scene::new("strain")
         .subdomains(["lower", "upper"], "rock")
         .material("rock", 1e4, 0.3)

@@ -24,7 +24,7 @@ fn steel(plane: &str) -> Scene {
 }
 
 fn bar(shape: Shape) -> Vec<Mesh> {
-    vec![rectangle(&even(0.0, 2.0, 5), &even(0.0, 0.4, 2), shape, |x, y| [x, y])]
+    vec![even_block([0.0, 2.0], [0.0, 0.4], [5, 2], shape)]
 }
 
 /// Between walls.
@@ -110,10 +110,8 @@ fn a_bimetal_bends_as_timoshenko_says() {
         .expansion("brass", a2)
         .interface("bond", faces("low.top", "high.bottom").law(elastic(1e20, 1e20)))
         .step(warm.temperature("low", warmer).temperature("high", warmer));
-    let flat = |x: f64, y: f64| [x, y];
-    let strip = |n: usize, y: f64, h: f64| {
-        rectangle(&even(0.0, length, n), &even(y, y + h, 2), Shape::Quadrilateral8, flat)
-    };
+    let strip =
+        |n: usize, y: f64, h: f64| even_block([0.0, length], [y, y + h], [n, 2], Shape::Quadrilateral8);
     let mut low = strip(90, 0.0, h1);
     let near = |mesh: &midplane::mesh::Mesh, x: f64, y: f64| {
         let far = |p: &[f64; 3]| (p[0] - x).hypot(p[1] - y);

@@ -16,7 +16,7 @@ use midplane::solver::{Cut, FactorPlan, Linear, Parts, Symbolic, System, nested_
 fn layers(edges: &[usize], shape: Shape, jointed: bool, fix: &str) -> Problem {
     let meshes = edges.iter().enumerate().map(|(k, &n)| {
         let y = 0.5 * k as f64;
-        rectangle(&even(0.0, 2.0, n), &even(y, y + 0.5, n / 4), shape, |x, y| [x, y])
+        even_block([0.0, 2.0], [y, y + 0.5], [n, n / 4], shape)
     });
     let name = |k: usize, side: &str| format!("l{k}{side}");
     let load = step("load").traction(&name(edges.len() - 1, ".top"), 0.3, -1.0);

@@ -34,9 +34,8 @@ fn scene(increments: usize, load_factor: f64, fields: &str) -> Scene {
 }
 
 fn problem(increments: usize, load_factor: f64, fields: &str) -> Problem {
-    let block = |n: usize, y: f64| -> Mesh {
-        rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral8, |x, y| [x, y])
-    };
+    let block =
+        |n: usize, y: f64| -> Mesh { even_block([0.0, 0.4], [y, y + 0.2], [n, 2], Shape::Quadrilateral8) };
     scene(increments, load_factor, fields).bind(vec![block(3, -0.2), block(4, 0.0)]).unwrap()
 }
 

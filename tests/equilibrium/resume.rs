@@ -42,9 +42,7 @@ fn problem(law: &Law, control: &str, strategy: &str, fields: &str, more: &[Step]
 }
 
 fn blocks() -> Vec<Mesh> {
-    let block = |n: usize, y: f64| {
-        rectangle(&even(0.0, 0.4, n), &even(y, y + 0.2, 2), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let block = |n: usize, y: f64| even_block([0.0, 0.4], [y, y + 0.2], [n, 2], Shape::Quadrilateral4);
     vec![block(5, -0.2), block(4, 0.0)]
 }
 

@@ -39,9 +39,7 @@ fn scene(law: Law, coupling: &str) -> Scene {
 }
 
 fn layers(lower: usize, upper: usize) -> Vec<Mesh> {
-    let layer = |n: usize, y: f64| {
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, n / 2), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let layer = |n: usize, y: f64| even_block([0.0, 1.0], [y, y + 0.5], [n, n / 2], Shape::Quadrilateral4);
     vec![layer(lower, -0.5), layer(upper, 0.0)]
 }
 

@@ -42,8 +42,7 @@ fn scene(end: f64, control: &str, strategy: &str) -> Scene {
 /// Claim: a part that is pulled away by many lengths of its interface, because it is asked to, goes there: only what nothing asks for goes nowhere.
 #[test]
 fn a_pull_over_many_lengths_is_followed() {
-    let bar =
-        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let bar = |y: f64| even_block([0.0, 0.02], [y, y + 0.5], [1, 3], Shape::Quadrilateral4);
     for strategy in ["condensed", "blocks", "plain"] {
         let problem = scene(5.0, "load", strategy).bind(vec![bar(-0.5), bar(0.0)]).unwrap();
         let found = try_solve(&problem);
@@ -59,8 +58,7 @@ fn a_pull_over_many_lengths_is_followed() {
 /// refused with what to do.
 #[test]
 fn affine_formulas_are_followed_as_ramps() {
-    let bar =
-        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let bar = |y: f64| even_block([0.0, 0.02], [y, y + 0.5], [1, 3], Shape::Quadrilateral4);
     let end = 1.02 * CHI * (1.0 / E + 1.0 / KN);
     let bound = |end: Value| {
         let scene = bars("condensed", 1e-8).step(pull(end, "auto", 40));
@@ -138,8 +136,7 @@ fn an_increment_that_goes_too_far_from_the_start_is_divided() {
     let c = 1.0 / E + 1.0 / KN;
     let exact = |s: f64| s * c - GI / CHI * (s / CHI).ln();
     let end = 1.1 * CHI * c;
-    let bar =
-        |y: f64| rectangle(&even(0.0, 0.02, 1), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y]);
+    let bar = |y: f64| even_block([0.0, 0.02], [y, y + 0.5], [1, 3], Shape::Quadrilateral4);
     let scene = bars("condensed", 1e-8).step(pull(end, "auto", 1));
     let problem = scene.bind(vec![bar(-0.5), bar(0.0)]).unwrap();
     let march = try_solve(&problem);

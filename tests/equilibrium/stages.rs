@@ -45,9 +45,7 @@ fn scene(law: Law, subdomains: [Subdomain; 2]) -> Scene {
 }
 
 fn blocks() -> Vec<Mesh> {
-    let block = |n: usize, y: f64| {
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), Shape::Quadrilateral8, |x, y| [x, y])
-    };
+    let block = |n: usize, y: f64| even_block([0.0, 1.0], [y, y + 1.0], [n, 2], Shape::Quadrilateral8);
     vec![block(3, 0.0), block(4, 1.0)]
 }
 

@@ -27,7 +27,7 @@ fn concrete() -> Law {
 
 /// A block of quadrilaterals.
 fn block([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], [nx, ny]: [usize; 2]) -> Mesh {
-    rectangle(&even(x0, x1, nx), &even(y0, y1, ny), Shape::Quadrilateral4, |x, y| [x, y])
+    even_block([x0, x1], [y0, y1], [nx, ny], Shape::Quadrilateral4)
 }
 
 /// Adds a group of the point at a place.

@@ -27,9 +27,7 @@ fn scene(end: f64, increments: usize, coupling: &str, law_tolerance: f64) -> Sce
 }
 
 fn bars(length: f64, shape: Shape, pair: (usize, usize)) -> Vec<midplane::mesh::Mesh> {
-    let bar = |n: usize, y: f64| {
-        rectangle(&even(0.0, WIDTH, n), &even(y, y + length / 2.0, 3), shape, |x, y| [x, y])
-    };
+    let bar = |n: usize, y: f64| even_block([0.0, WIDTH], [y, y + length / 2.0], [n, 3], shape);
     vec![bar(pair.0, -length / 2.0), bar(pair.1, 0.0)]
 }
 

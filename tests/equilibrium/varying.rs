@@ -10,11 +10,10 @@ use serde_json::Value;
 
 /// Two layers of 2 m × 0.5 m on top of each other, whose halves have groups of their own.
 fn layers(n: [usize; 2]) -> Vec<Mesh> {
-    let flat = |x: f64, y: f64| [x, y];
     let mut meshes = Vec::new();
     for (k, n) in n.into_iter().enumerate() {
         let y = 0.5 * k as f64;
-        let mut mesh = rectangle(&even(0.0, 2.0, n), &even(y, y + 0.5, 4), Shape::Quadrilateral4, flat);
+        let mut mesh = even_block([0.0, 2.0], [y, y + 0.5], [n, 4], Shape::Quadrilateral4);
         let side = if k == 0 { "top" } else { "bottom" };
         let [left, right] = halves(&mesh, side);
         mesh.groups.insert(format!("{side}_left"), left);

@@ -58,9 +58,7 @@ fn scene(law: Law, steps: &[Step]) -> Scene {
 }
 
 fn blocks(scene: Scene) -> Result<Problem> {
-    let block = |n: usize, y: f64| {
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
-    };
+    let block = |n: usize, y: f64| even_block([0.0, 1.0], [y, y + 0.5], [n, 3], Shape::Quadrilateral4);
     scene.bind(vec![block(4, -0.5), block(7, 0.0)])
 }
 

@@ -1,7 +1,7 @@
 //! Claim: `midplane check` says of every interface what it is, warns of what spoils it, and `--plot` writes it to look at.
 
 use crate::common::squares::{SCENE, compression, joined, midplane, springs, structured, write};
-use crate::common::{even, faces, rectangle};
+use crate::common::{even, even_block, faces, rectangle};
 use midplane::error::Code;
 use midplane::shape::Shape;
 use tempfile::TempDir;
@@ -103,7 +103,7 @@ fn elements_that_lock_are_warned_of() {
     let bound = |plane: &str, poisson: f64, shape: Shape| {
         let scene =
             joined(springs()).with("plane", plane).material("rock", 1e4, poisson).step(compression(1));
-        let mesh = |n, y| rectangle(&even(0.0, 1.0, n), &even(y, y + 1.0, 2), shape, |x, y| [x, y]);
+        let mesh = |n, y| even_block([0.0, 1.0], [y, y + 1.0], [n, 2], shape);
         scene.bind(vec![mesh(3, 0.0), mesh(5, 1.0)]).unwrap().warnings
     };
     for shape in [Shape::Triangle3, Shape::Quadrilateral4] {

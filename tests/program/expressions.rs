@@ -25,7 +25,7 @@ fn square(mesh: Mesh, steps: impl IntoIterator<Item = Step>) -> Result<Problem> 
 }
 
 fn unit(nx: usize, ny: usize, shape: Shape) -> Mesh {
-    rectangle(&even(0.0, 1.0, nx), &even(0.0, 1.0, ny), shape, |x, y| [x, y])
+    even_block([0.0, 1.0], [0.0, 1.0], [nx, ny], shape)
 }
 
 /// A step with the bottom held.
@@ -199,8 +199,8 @@ fn rounding_is_no_conflict_of_supports() {
 /// linear, and s counts as the probes do.
 #[test]
 fn an_initial_traction_varies_along_the_interface() {
-    let lower = rectangle(&even(0.0, 2.0, 3), &even(0.0, 1.0, 2), Shape::Quadrilateral4, |x, y| [x, y]);
-    let upper = rectangle(&even(0.0, 2.0, 5), &even(1.0, 2.0, 2), Shape::Triangle3, |x, y| [x, y]);
+    let lower = even_block([0.0, 2.0], [0.0, 1.0], [3, 2], Shape::Quadrilateral4);
+    let upper = even_block([0.0, 2.0], [1.0, 2.0], [5, 2], Shape::Triangle3);
     for [n, t] in [["2*s", "1 - s"], ["x", "1 - x/2"]] {
         let joint = faces("lower.top", "upper.bottom").initial_traction(n, t).law(elastic(1e5, 2e4));
         let scene = Scene::new("strain")

@@ -27,7 +27,7 @@ fn tower(steps: impl IntoIterator<Item = Step>, history: &[(&str, Value)]) -> Re
         history.iter().fold(scene().steps(steps), |scene, (name, column)| scene.column(name, column.clone()));
     let block = |k: usize, n: usize| {
         let y = 0.5 * k as f64;
-        rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 3), Shape::Quadrilateral4, |x, y| [x, y])
+        even_block([0.0, 1.0], [y, y + 0.5], [n, 3], Shape::Quadrilateral4)
     };
     scene.bind(vec![block(0, 4), block(1, 5), block(2, 3)])
 }
@@ -218,8 +218,7 @@ fn quantities_of_interfaces_are_those_of_their_law_points() {
 fn patterns_name_curves_of_interfaces() {
     let block = |k: usize, n: usize| {
         let y = 0.5 * k as f64;
-        let mut mesh =
-            rectangle(&even(0.0, 1.0, n), &even(y, y + 0.5, 4), Shape::Quadrilateral4, |x, y| [x, y]);
+        let mut mesh = even_block([0.0, 1.0], [y, y + 0.5], [n, 4], Shape::Quadrilateral4);
         // along the middle
         let row = |i: usize| 2 * (n + 1) + i;
         let edges = (0..n).map(|i| Facet::edge(&[row(i), row(i + 1)], n + i, false)).collect();
@@ -260,9 +259,7 @@ fn names_may_have_spaces() {
             .probe("n", &format!("{joint}.traction_n@0.5"))
             .probe("r", "reaction:base.bottom:y")
             .probe("u", &top("top.displacement_y"));
-        let block = |y: f64| {
-            rectangle(&even(0.0, 1.0, 3), &even(y, y + 0.5, 2), Shape::Quadrilateral4, |x, y| [x, y])
-        };
+        let block = |y: f64| even_block([0.0, 1.0], [y, y + 0.5], [3, 2], Shape::Quadrilateral4);
         let problem = scene.bind(vec![block(0.0), block(0.5)]).unwrap();
         solve(&problem).0.pop().unwrap().probes(&problem)
     };

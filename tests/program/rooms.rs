@@ -396,7 +396,9 @@ fn programs() -> Vec<(String, BTreeMap<String, String>, String)> {
         let files = paths(folder).filter(|path| path.extension().is_some_and(|kind| kind == "rs"));
         files.filter(|path| stem(path) != "main").map(|path| (stem(&path), read(&path))).collect()
     };
-    let folders = paths(&tests).filter(|path| path.join("main.rs").is_file());
+    // the crates below tests are no programs of this one
+    let folders =
+        paths(&tests).filter(|path| path.join("main.rs").is_file() && !path.join("Cargo.toml").is_file());
     folders.map(|folder| (stem(&folder), own(&folder), read(&folder.join("main.rs")))).collect()
 }
 
