@@ -220,7 +220,7 @@ identical: $(MIDPLANE) $(VENV)  ## run the gallery with the program of commit `b
 	$(PIPELINE).robust.identical $(TARGET)/before/target/release/midplane $(MIDPLANE)
 
 confinement: | tools  ## the long tests: boxes at every confinement on fine meshes, and 200 random ones, some minutes
-	cargo test --release --locked --test tests confinement:: -- --ignored --nocapture
+	cargo test --release --locked --test equilibrium confinement:: -- --ignored --nocapture
 
 BENCHED := results/bench/scenes.csv $(wildcard results/bench/peers*.csv)
 
@@ -232,7 +232,7 @@ extremes-quick: $(MIDPLANE) $(VENV)  ## the same with shorter sweeps: results/ex
 	$(PIPELINE).extremes $(MIDPLANE) -o results/extremes-quick --quick $(rows)
 
 hostile-test: | tools  ## geometries from strangers: all are contained and say why
-	cargo test --release --locked --test tests hostile:: -- --nocapture
+	cargo test --release --locked --test program hostile:: -- --nocapture
 
 damage-test: $(MIDPLANE) $(VENV)  ## ten thousand damaged scenes, geometries, meshes, studies and paths, a quarter of an hour
 	$(PIPELINE).robust.damage $(MIDPLANE) -o results/damage
@@ -345,7 +345,7 @@ trade-docs: $(VENV)  ## put what `make trade` has measured into docs/trade/ and 
 
 verify: | tools   ## errors and rates against exact solutions, written to docs/VERIFICATION.md
 	@rm -rf results/verify && mkdir -p results/verify
-	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test tests -- example1:: patch:: round:: verify::
+	MIDPLANE_TABLES=$(CURDIR)/results/verify cargo test --release --locked --test coupling -- example1:: patch:: round:: verify::
 	@{ printf '# Verification\n\nWritten by `make verify`; the tests that make these tables assert their claims.\n'; \
 	    for table in results/verify/*.md; do echo; sed 's,^### ,## ,' $$table; done; } > docs/VERIFICATION.md
 

@@ -25,6 +25,7 @@ highlight_language = "none"
 LINK = re.compile(r"(?<!!)\[(?P<text>[^\]]*)\]\((?P<to>(?!https?:|#|mailto:)[^)\s]+)\)")
 MARK = re.compile(r"^<!-- (not run|prints|fails).*?-->\n", re.M)
 INFO = re.compile(r'^```(\w+) title="([^"]+)"$', re.M)
+SOURCE = re.compile(r"(?<![\w/.*])(?:[a-z_]+/)+[a-z_0-9]+\.rs\b")
 # pages that stand elsewhere in the repository
 ELSEWHERE = {"overview": "README.md", "changes": "CHANGELOG.md"}
 
@@ -49,6 +50,9 @@ def taken_in(app, docname, content):
         name = str(path.relative_to(ROOT))
         return link["text"] if name in link["text"].strip("`/") else f"{link['text']} (`{name}`)"
 
+    gone = [name for name in SOURCE.findall(content[0]) if not ((ROOT / name).exists() or (ROOT / "src" / name).exists())]
+    if gone and docname != "changes":
+        raise ValueError(f"{docname} names files that are not there: {', '.join(gone)}")
     text = INFO.sub(r"*\2*\n\n```\1", MARK.sub("", content[0]))
     content[0] = LINK.sub(local, text)
 

@@ -1,6 +1,6 @@
 //! Warnings: a code, the place and the reason, and help.
 //!
-//! docs/WARNINGS.md has a section for every code; tests/warnings.rs sees to that.
+//! docs/WARNINGS.md has a section for every code; tests/program/warnings.rs sees to that.
 
 use std::fmt;
 

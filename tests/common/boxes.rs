@@ -12,7 +12,7 @@
 use midplane::mesh::Mesh;
 use midplane::shape::Shape;
 
-use super::{even, rectangle};
+use super::{Law, Scene, Step, cracking, even, faces, rectangle, step};
 
 /// The rock of the gallery and a masonry interface [MPa, m].
 pub const ROCK: Cracking = Cracking {
@@ -47,46 +47,34 @@ pub struct Cracking {
 }
 
 impl Cracking {
-    /// The law as a scene has it.
-    pub fn text(&self) -> String {
-        let Cracking {
-            stiffness: k,
-            tensile_strength,
-            cohesion,
-            tan_friction,
-            energies: [g1, g2],
-            dilatancy_stress,
-            unloading,
-        } = self;
-        format!(
-            r#""type": "cracking", "normal_stiffness": {k:e}, "tangential_stiffness": {k:e}, "tensile_strength": {tensile_strength:e},
-            "cohesion": {cohesion:e}, "tan_friction": {tan_friction:e}, "fracture_energy_i": {g1:e},
-            "fracture_energy_iia": {g2:e}, "dilatancy_stress": {dilatancy_stress:e}, "unloading": "{unloading}""#
-        )
+    /// The law of a scene.
+    pub fn law(&self) -> Law {
+        let Cracking { stiffness: k, tensile_strength, cohesion, tan_friction, energies, .. } = *self;
+        cracking(k, k, [tensile_strength, cohesion, tan_friction], energies)
+            .with("dilatancy_stress", self.dilatancy_stress)
+            .with("unloading", self.unloading)
+    }
+
+    /// The scene of a box with this law, compressed by a pressure and then sheared.
+    pub fn sheared(&self, pressure: f64, shear: Step) -> Scene {
+        let compression = step("compression").pressure("upper.top", pressure).fix("lower.bottom", "y");
+        let sides = ["lower.left", "lower.right", "upper.left", "upper.right"];
+        Scene::new("strain")
+            .subdomains(["lower", "upper"], "rock")
+            .material("rock", 1e4, 0.2)
+            .interface("joint", faces("lower.top", "upper.bottom").law(self.law()))
+            .step(sides.into_iter().fold(compression, |step, side| step.fix(side, "x")))
+            .step(shear)
+            .probe("shear", "joint.resultant_t")
     }
 }
 
-/// The scene of a box whose law is written as in a scene, under pressure, sheared by `slide` in so many increments.
-pub fn scene(
-    law: &str,
-    pressure: f64,
-    slide: f64,
-    increments: usize,
-    solution: &str,
-    control: &str,
-) -> String {
-    format!(
-        r#"{{"plane": "strain",
-        "subdomains": {{"lower": {{"msh": "a", "material": "rock"}}, "upper": {{"msh": "b", "material": "rock"}}}},
-        "materials": {{"rock": {{"young": 1e4, "poisson": 0.2}}}},
-        "interfaces": {{"joint": {{"side_a": "lower.top", "side_b": "upper.bottom", "law": {{{law}}}}}}},
-        "solution": {{{solution}}},
-        "steps": [
-            {{"name": "compression", "load": {{"upper.top": {{"pressure": {pressure:e}}}}}, "fix": {{"lower.bottom": ["y"],
-              "lower.left": ["x"], "lower.right": ["x"], "upper.left": ["x"], "upper.right": ["x"]}}}},
-            {{"name": "shear", "increments": {increments}, "control": "{control}",
-              "displace": {{"upper.left": {{"x": {slide:e}}}, "upper.right": {{"x": {slide:e}}}}}}}],
-        "output": {{"history": {{"shear": "joint.resultant_t"}}}}}}"#
+/// The shear of a box by a slide.
+pub fn shear(slide: f64, increments: usize) -> Step {
+    step("shear").increments(increments).displace("upper.left", "x", slide).displace(
+        "upper.right",
+        "x",
+        slide,
     )
 }
 

@@ -1,7 +1,5 @@
 //! Pairs of chains along one curve, as the coupling sees them.
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use midplane::coupling::{Coupling, Gap, JumpScheme, LawPoint, Points, Scheme, Side, Surroundings};
 use midplane::error::Result;
 use midplane::mesh::Facet;

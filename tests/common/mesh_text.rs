@@ -1,10 +1,8 @@
 //! Small MSH 4.1 files written by hand, text or binary, and the promises that a mesh read from any file must keep.
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use midplane::mesh::{Facet, Group, Mesh};
 
-/// What an MSH file says; every field may be made wrong on purpose.
+/// Contents of an MSH file; every field may be made wrong on purpose.
 #[derive(Debug, Clone)]
 pub struct MeshText {
     /// Dimension, number and name of the named groups.
@@ -25,7 +23,7 @@ pub struct Block {
     pub elements: Vec<(u64, Vec<u64>)>,
 }
 
-/// How numbers are written.
+/// The form in which numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     Text,

@@ -3,13 +3,17 @@
 pub mod boundary;
 pub mod boxes;
 pub mod chains;
+pub mod laws;
 pub mod mesh_text;
 pub mod place;
 pub mod rings;
 pub mod round;
+pub mod scene;
 pub mod squares;
 pub mod strip;
 pub mod table;
+
+pub use scene::*;
 
 use indexmap::IndexMap;
 use midplane::history::{Clock, Equations, History, Increment, Means, ModelState, Totals};
@@ -52,6 +56,11 @@ pub fn rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f64) 
         Shape::Quadrilateral8 => quadratic(linear_rectangle(xs, ys, Shape::Quadrilateral4, place), shape),
         _ => linear_rectangle(xs, ys, shape, place),
     }
+}
+
+/// A rectangle between x[0] and x[1], y[0] and y[1], of n[0] × n[1] equal quadrilaterals or as many pairs of triangles.
+pub fn even_block(x: [f64; 2], y: [f64; 2], n: [usize; 2], shape: Shape) -> Mesh {
+    rectangle(&even(x[0], x[1], n[0]), &even(y[0], y[1], n[1]), shape, |x, y| [x, y])
 }
 
 /// The mesh with mid-nodes on the straight edges.
@@ -135,12 +144,6 @@ fn linear_rectangle(xs: &[f64], ys: &[f64], shape: Shape, place: impl Fn(f64, f6
 pub fn rotation(degrees: f64) -> impl Fn(f64, f64) -> [f64; 2] + Copy {
     let (sin, cos) = degrees.to_radians().sin_cos();
     move |x, y| [cos * x - sin * y, sin * x + cos * y]
-}
-
-/// Binds a scene text to meshes.
-pub fn bind(text: &str, meshes: Vec<Mesh>) -> midplane::error::Result<Problem> {
-    let scene = midplane::run::parse_scene("scene.json".into(), text.into(), &[])?;
-    Problem::bind(&scene, meshes)
 }
 
 /// A history: iterations, load factors and states of its increments, and how it ended.

@@ -1,7 +1,5 @@
 //! A folder with a .geo, and programs that stand in for gmsh.
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;

@@ -5,8 +5,6 @@
 //! inclusion  harmonics 0 and 2: Airy terms r², r⁴ inside, ln r, r², r⁰, r⁻² outside
 //! ```
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix4, Vector4};

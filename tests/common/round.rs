@@ -1,7 +1,5 @@
 //! Curved meshes: bent rectangles and closed rings, with mid-nodes on the curves.
 
-#![allow(dead_code)] // each test file uses a part of it
-
 use std::collections::HashMap;
 use std::f64::consts::PI;
 

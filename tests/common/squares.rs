@@ -9,10 +9,11 @@
 //!  └─────────┘  y = 0     corner: the left end of the bottom
 //! ```
 
-#![allow(dead_code)] // each test file uses a part of it
-
+use std::fmt::Display;
 use std::path::Path;
 use std::process::{Command, Output};
+
+use super::{Law, Scene, Step, elastic, faces, geometry, step};
 
 /// A square of triangles; `@` is the height of its bottom.
 pub const SQUARE: &str = "DefineConstant[ n = {3, Name \"edges\"} ];
@@ -25,9 +26,10 @@ Physical Curve(\"bottom\") = {1}; Physical Curve(\"top\") = {3};
 Physical Surface(\"body\") = {1};
 ";
 
-/// What makes it n × 2 quadrilaterals.
+/// Commands that make it n × 2 quadrilaterals.
 const STRUCTURED: &str = "Transfinite Surface {1}; Recombine Surface {1};\n";
 
+/// The scene as a user writes it.
 pub const SCENE: &str = r#"{
   "plane": "strain",
   "subdomains": {
@@ -50,6 +52,31 @@ pub const SCENE: &str = r#"{
 }
 "#;
 
+/// The same two squares with any law between them, before their step.
+pub fn joined(law: Law) -> Scene {
+    Scene::new("strain")
+        .body("lower", geometry("lower.geo", "rock"))
+        .body("upper", geometry("upper.geo", "rock"))
+        .material("rock", 1e4, 0.0)
+        .interface("joint", faces("lower.top", "upper.bottom").law(law))
+        .probe("top", "upper.top.displacement_y")
+}
+
+/// The springs between them.
+pub fn springs() -> Law {
+    elastic(1e7, 1e7)
+}
+
+/// A step in which they stand on rollers.
+pub fn standing(name: &str) -> Step {
+    step(name).fix("lower.bottom", "y").fix("lower.corner", "x")
+}
+
+/// Their step, in increments.
+pub fn compression(increments: usize) -> Step {
+    standing("compression").increments(increments).pressure("upper.top", 10.0)
+}
+
 /// A square of n × 2 quadrilaterals.
 pub fn structured(n: usize) -> String {
     format!("{SQUARE}{STRUCTURED}").replace("n = {3", &format!("n = {{{n}"))
@@ -62,10 +89,10 @@ pub fn changed(text: &str, from: &str, to: &str) -> String {
 }
 
 /// Writes a scene folder.
-pub fn write(folder: &Path, lower: &str, upper: &str, scene: &str) {
+pub fn write(folder: &Path, lower: &str, upper: &str, scene: impl Display) {
     std::fs::write(folder.join("lower.geo"), lower.replace('@', "0")).unwrap();
     std::fs::write(folder.join("upper.geo"), upper.replace('@', "1")).unwrap();
-    std::fs::write(folder.join("scene.json"), scene).unwrap();
+    std::fs::write(folder.join("scene.json"), scene.to_string()).unwrap();
 }
 
 /// Runs the program in a folder.
@@ -84,7 +111,7 @@ pub fn assert_shortened(folder: &Path, what: &str) {
 }
 
 /// A folder with the two squares and this scene.
-pub fn squares(scene: &str) -> tempfile::TempDir {
+pub fn squares(scene: impl Display) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), &structured(3), &structured(5), scene);
     folder

@@ -24,7 +24,7 @@ pub struct Strip {
     pub p0: f64,
 }
 
-/// What is compared.
+/// Values that are compared.
 pub struct Answer {
     /// Amplitude of u_y on the top.
     pub q_top: f64,

@@ -29,6 +29,8 @@ from .areas import AREAS
 from .survivors import Site, same, write
 
 REASONS = ROOT / "tests/mutants/reasons.json"
+# programs of integration tests
+PROGRAMS = ["laws", "coupling", "equilibrium", "program"]
 SWITCH = """
 /// True for the mutant that the environment names.
 pub fn mutant(number: u32) -> bool {
@@ -117,7 +119,7 @@ class Mutants:
             if path.read_bytes() != out:
                 path.write_bytes(out)
 
-    def compile(self) -> list[str]:
+    def compile(self) -> dict[str, str]:
         """Leaves out what does not compile, and draws others for it; the programs of the tests."""
         count = {area: len(sites) for area, sites in self.sample.items()}
         while True:
@@ -138,15 +140,14 @@ class Mutants:
             for area in self.sample:
                 self.sample[area] = [site for site in self.sample[area] if site["number"] not in bad]
                 self.fill(area, count[area])
-        ended, messages = build(self.work, "test", "--no-run", "--lib", "--test", "tests")
+        ended, messages = build(self.work, "test", "--no-run", "--lib", *(f"--test={name}" for name in PROGRAMS))
         if ended.returncode:
             sys.exit(ended.stderr)
-        made = {
+        return {
             message["target"]["name"]: message["executable"]
             for message in messages
             if message["reason"] == "compiler-artifact" and message["executable"] and message["profile"]["test"]
         }
-        return [made["midplane"], made["tests"]]
 
     def nearest(self, span: Site) -> Site:
         """The mutant nearest to the place of a compiler's error."""
@@ -163,10 +164,11 @@ def are_apart(site: Site, other: Site) -> bool:
     return other["file"] != site["file"] or other["end"] < site["start"] or site["end"] < other["start"]
 
 
-def tests_of(area: str, programs: list[str]) -> list[list[str]]:
+def tests_of(area: str, programs: dict[str, str]) -> list[list[str]]:
     """Commands of the tests of an area."""
     _, _, units, integration = AREAS[area]
-    return [[programs[0], *units], *([programs[1], f"{name}::"] for name in integration)]
+    named = [name.split("/") for name in integration]
+    return [[programs["midplane"], *units], *([programs[program], f"{name}::"] for program, name in named)]
 
 
 def run(commands: list[list[str]], number: int, work: Path, limit: float) -> tuple[str | None, float]:
