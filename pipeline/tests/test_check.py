@@ -43,6 +43,7 @@ def test_values_of_a_history():
     assert value_of("min:u", ROWS, {}) == 0.0
     assert value_of("force@end:press", ROWS, {}) == 4.0
     assert value_of("force@u=0.25", ROWS, {}) == pytest.approx(1.75)
+    assert value_of("force@u=3", [*ROWS, {"step": "pull", "force": 5.0, "u": 4.0}], {}) == pytest.approx(4.0)
     assert value_of("nothing", ROWS, {}) is None
     field = {"length": np.array([0.1, 0.2, 0.3]), "status": np.array([0, 4, 4])}
     assert value_of("joint#4", ROWS, {"joint": field}) == pytest.approx(0.5)
@@ -118,13 +119,14 @@ PULLED = {
 }
 
 
-def spring(factor=1.0):
-    """A spring of 5 MN/m, pulled by 2 mm in four increments."""
+def spring(factor=1.0, lost=0.0, gone=0.0):
+    """A spring of 5 MN/m, pulled by 2 mm in four increments; shares of its work that are dissipated and released."""
     rows = []
     for k in range(1, 5):
         u = 5e-4 * k
         row = {"step": "pull", "load_factor": k / 4, "reaction:b.top:y": 5 * u, "work": factor * 2.5 * u**2}
-        rows.append(row | {"stored": row["work"], "lost": 0.0, "gone": 0.0, "energy_balance": 0.0})
+        shares = {"stored": 1 - lost - gone, "lost": lost, "gone": gone}
+        rows.append(row | {name: share * row["work"] for name, share in shares.items()} | {"energy_balance": 0.0})
     return rows
 
 
@@ -133,6 +135,8 @@ def test_the_work_of_a_spring_is_that_of_its_forces(tmp_path):
     said = check_energies("here", PULLED, tmp_path, told, spring(), 1e-8, faults)
     assert faults == []
     assert "in 4 increments" in said
+    check_energies("here", PULLED, tmp_path, told, spring(lost=0.3, gone=0.2), 1e-8, faults)
+    assert faults == []
     check_energies("here", PULLED, tmp_path, told, spring(1.05), 1e-8, faults)
     assert any("work is off" in fault for fault in faults)
     faults.clear()

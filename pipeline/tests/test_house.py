@@ -40,6 +40,7 @@ def test_versions_fit_requirements(version, requirement, good):
         ("MIT AND GPL-3.0", False),
         ("(MIT OR GPL-3.0) AND Zlib", True),
         ("MIT/Apache-2.0", True),
+        ("MIT/GPL-3.0", True),
         ("none", False),
     ],
 )
