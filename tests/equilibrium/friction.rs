@@ -188,6 +188,27 @@ fn more_than_friction_can_hold_is_no_equilibrium() {
     }
 }
 
+/// All points slide at once at T = μ N, whatever the increments: the last equilibrium is at most a thousandth of one below it.
+#[test]
+fn the_limit_of_an_interface_that_slides_at_once_is_met_in_any_increments() {
+    let (width, mu, pressure, push) = (0.6, 0.6, 2.0, 2.9);
+    for increments in [1, 3, 4, 7, 9] {
+        let steps = [
+            step("press").fix("lower", "xy").pressure("upper.top", pressure),
+            step("push").increments(increments).traction("upper.bottom", push * mu * pressure, 0),
+        ];
+        let scene = scene([1e5, 1e5], [2e4, 1e4, mu], "projected", &steps);
+        let shape = Shape::Quadrilateral4;
+        let problem = scene
+            .bind(vec![block(width, -0.2, 0.2, 3, 2, shape), block(width, 0.0, 0.2, 4, 2, shape)])
+            .unwrap();
+        let march = try_solve(&problem);
+        assert!(matches!(march.end, Err(Error::NoEquilibrium { .. })), "{increments}");
+        let short = (1.0 / push - march.load_factors[march.load_factors.len() - 1]) * increments as f64;
+        assert!((0.0..1e-3).contains(&short), "{increments} increments: {short} of one short");
+    }
+}
+
 #[test]
 fn a_block_that_slides_away_is_no_equilibrium_however_far_it_gets() {
     // the block of the gallery weighs 4 MN and holds a push of 2 MN

@@ -156,6 +156,43 @@ fn help_schema_and_completions_are_printed() {
     assert_eq!(midplane(folder.path(), &["fly"]).status.code(), Some(2));
 }
 
+#[test]
+fn schemas_and_manual_pages_are_written_where_they_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    for (arguments, file, printed) in [
+        (&["schema", "--write"][..], "scene.schema.json", &["schema"][..]),
+        (&["schema", "study", "--write"], "study.schema.json", &["schema", "study"]),
+        (&["schema", "--write", "own.json"], "own.json", &["schema"]),
+    ] {
+        let output = midplane(folder.path(), arguments);
+        assert!(output.status.success() && output.stdout.is_empty(), "{arguments:?}");
+        assert!(read(file) == midplane(folder.path(), printed).stdout, "{file}");
+    }
+    assert!(midplane(folder.path(), &["manual", "man"]).status.success());
+    assert!(String::from_utf8_lossy(&read("man/midplane-run.1")).contains("mesh, solve"));
+    assert_eq!(midplane(folder.path(), &["schema", "--write", "none/there.json"]).status.code(), Some(4));
+}
+
+/// Editors show what stands beside a reference only where the reference is in an `allOf`.
+#[test]
+fn descriptions_of_keys_are_those_of_the_keys() {
+    fn look(value: &serde_json::Value, seen: &mut usize) {
+        if let Some(object) = value.as_object() {
+            assert!(!(object.contains_key("$ref") && object.contains_key("description")), "{value}");
+            *seen += usize::from(object.contains_key("allOf"));
+            object.values().for_each(|value| look(value, seen));
+        }
+        value.as_array().into_iter().flatten().for_each(|value| look(value, seen));
+    }
+    for of in ["scene", "study"] {
+        let printed = midplane(Path::new("."), &["schema", of]).stdout;
+        let mut seen = 0;
+        look(&serde_json::from_slice(&printed).unwrap(), &mut seen);
+        assert!(seen > 0, "{of}");
+    }
+}
+
 /// The schema that the scenes of the gallery name is the one the program prints.
 #[test]
 fn the_schema_in_the_gallery_is_current() {
