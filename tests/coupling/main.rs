@@ -1,6 +1,6 @@
 //! Meshes, pairing, coupling, and their verification: `cargo test --release --test coupling patch::` runs the tests of one file.
 //!
-//! Meshes
+//! ## Meshes
 //!
 //! - `mesh_reading`: the mesh holds what an MSH 4.1 file says, in every encoding and numbering
 //! - `mesh_damaged`: a damaged file gives a sound mesh or one clear error
@@ -9,7 +9,7 @@
 //! - `mesh_rows`: physical groups work or are refused by name, end to end
 //! - `shared_mesh`: a conforming mesh opens into subdomains with nodes of their own
 //!
-//! Pairing
+//! ## Pairing
 //!
 //! - `joints`: geometry at its extremes is joined exactly or refused with the reason
 //! - `fractures`: a fracture drawn inside a body is an interface once the mesh is opened along it
@@ -17,7 +17,7 @@
 //! - `inclusion`: `between` finds the closed curve of two parts of one mesh
 //! - `junctions`: a constant stress passes X- and T-junctions to rounding
 //!
-//! Coupling
+//! ## Coupling
 //!
 //! - `straight`: jumps of two straight sides are those of the classical elements, constant and linear ones exact
 //! - `curves`: labels, place and size of curved, kinked, graded and closed sides do not matter
@@ -26,7 +26,7 @@
 //! - `stiff`: `projected` loses no digits to the stiffness of an interface
 //! - `fit`: interferences and clearances carry what theory says
 //!
-//! Verification
+//! ## Verification
 //!
 //! - `example1`: two layers under pressure shorten as one column (paper Example 1)
 //! - `example2`: two layers sheared over each other carry the curve of one point (paper Example 2)

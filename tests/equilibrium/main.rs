@@ -1,6 +1,6 @@
 //! Equilibria and load histories: `cargo test --release --test equilibrium friction::` runs the tests of one file.
 //!
-//! Steps, loads and supports
+//! ## Steps, loads and supports
 //!
 //! - `loads`: loads, supports and ramps meet their exact solutions; what nothing holds is told
 //! - `ramp`: an increment of an elastic ramp does not depend on those before
@@ -11,14 +11,14 @@
 //! - `tunnel`: what is dug out of ground under stress moves it as Kirsch says
 //! - `gallery`: scenes of the gallery whose answer is known by hand give it
 //!
-//! Contact and friction
+//! ## Contact and friction
 //!
 //! - `gap`: faces with a gap carry nothing until they meet
 //! - `closure`: a joint with a `closure` follows its hyperbola under any load and back
 //! - `friction`: Coulomb friction on a mesh agrees with its closed forms
 //! - `shear_box`: a layer sheared over another is found quadratically, with the energy in balance
 //!
-//! Cracks
+//! ## Cracks
 //!
 //! - `tension`: two bars with a cohesive interface follow the exact path and spend the fracture energy
 //! - `opening`: opening and sliding at once passes through the mode in which σ stays at zero
@@ -28,7 +28,7 @@
 //! - `confinement`: a box with a cracking interface is sheared to its end at any confinement
 //! - `cycles`: what opens and closes again carries its load through faces that touch
 //!
-//! Path
+//! ## Path
 //!
 //! - `snapback`: a bar that snaps back is followed along its exact path
 //! - `increments`: the answer does not depend on the increments
@@ -36,14 +36,14 @@
 //! - `energies`: work, stored, dissipated and released energy balance to second order
 //! - `resume`: a history that goes on from a checkpoint is the same bit for bit
 //!
-//! Water
+//! ## Water
 //!
 //! - `water`: water in a joint leaves the law the effective traction
 //! - `flow`: steady flow along joints is exact for the apertures of their grids
 //! - `pressurised`: fractures under pressure open as theory and an independent code say
 //! - `dam`: force and moment of a dam's joint are those of statics at every row
 //!
-//! Equations
+//! ## Equations
 //!
 //! - `agreement`: all forms of the equations find the same
 //! - `parts`: factored in parts or joined, a model has the same displacements

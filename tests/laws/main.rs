@@ -1,6 +1,6 @@
 //! Laws of interfaces at one point: `cargo test --release --test laws tangent::` runs the tests of one file.
 //!
-//! Cracking
+//! ## Cracking
 //!
 //! - `closed_forms`: pure tension, shear under pressure and one Euler step are those of the closed forms
 //! - `reference`: ten curves of an independent implementation are reproduced
@@ -8,17 +8,17 @@
 //! - `invariants`: a million random steps leave no hyperbola, undo no damage and create no energy
 //! - `extremes`: extreme parameters and ways are answered or refused
 //!
-//! Cohesive
+//! ## Cohesive
 //!
 //! - `cohesive`: the fracture energy is spent whatever the softening and the mixity
 //!
-//! Coulomb and elastic
+//! ## Coulomb and elastic
 //!
 //! - `coulomb`: friction is returned in closed form along a straight way
 //! - `coulomb_way`: the answer is exact along a straight way, whatever happens on it
 //! - `steps`: a million random steps leave no surface, and dissipation is never negative
 //!
-//! All laws
+//! ## All laws
 //!
 //! - `tangent`: the stiffness is the exact derivative of the traction
 //! - `space`: in space a law answers as in the plane

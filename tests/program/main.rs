@@ -1,6 +1,6 @@
 //! The program as its users meet it: `cargo test --release --test program study::` runs the tests of one file.
 //!
-//! Scenes
+//! ## Scenes
 //!
 //! - `bad_input`: bad input gives one clear error with its place, and nothing is written
 //! - `absurd`: counts, names and texts are checked before they are believed
@@ -9,7 +9,7 @@
 //! - `presets`: the error of every preset stays within its limit
 //! - `units`: no number in the program has a unit
 //!
-//! Runs and their files
+//! ## Runs and their files
 //!
 //! - `check`: `midplane check` says of every interface what it is, and warns of what spoils it
 //! - `folders`: a results folder belongs to one run at a time
@@ -18,12 +18,12 @@
 //! - `going_on`: an interrupted run goes on with `--resume`, byte by byte
 //! - `pipes`: whoever reads the output has no say in the run
 //!
-//! Studies
+//! ## Studies
 //!
 //! - `study`: a study runs every point of its axes with the answers of single runs
 //! - `study_shards`: shards collected have the answers of one process
 //!
-//! Safety and form
+//! ## Safety and form
 //!
 //! - `hostile`: a geometry from a stranger is contained
 //! - `faults`: faults that users met stay mended
