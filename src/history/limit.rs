@@ -11,8 +11,9 @@
 //! that takes a few iterations.
 
 use super::analysis::{Analysis, complete};
-use super::equilibrium::Ahead;
-use super::failure::stopped;
+use super::converged::Converged;
+use super::equilibrium::{Ahead, Failure};
+use super::failure::{stopped, unusable};
 use super::judge::{Judged, judge};
 use super::nowhere::{farthest, is_nowhere};
 use super::outcome::Outcome;
@@ -92,9 +93,13 @@ pub(super) fn close_in(
         let ahead = Ahead { changes: (to - from) / at.last, near: false };
         let found = match analysis.engine.solve(&analysis.state, &load, ahead, leg.complete) {
             Ok(found) if !is_nowhere(&found, [&leg.start.at(from)?, &load], analysis) => found,
-            _ => {
-                load_factor = to;
+            Ok(Converged { iterations: tried, .. })
+            | Err(Failure::Unconverged(Unconverged { iterations: tried, .. })) => {
+                (load_factor, iterations) = (to, iterations + tried);
                 continue;
+            }
+            Err(Failure::Unusable(error)) => {
+                return Err(unusable(leg.step, leg.number, analysis.totals.increments, error));
             }
         };
         iterations += found.iterations;

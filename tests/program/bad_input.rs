@@ -170,8 +170,7 @@ fn schemas_and_manual_pages_are_written_where_they_are_asked_for() {
         assert!(read(file) == midplane(folder.path(), printed).stdout, "{file}");
     }
     assert!(midplane(folder.path(), &["manual", "man"]).status.success());
-    assert!(String::from_utf8_lossy(&read("man/midplane-run.1")).contains("mesh, solve"));
-    assert_eq!(midplane(folder.path(), &["schema", "--write", "none/there.json"]).status.code(), Some(4));
+    assert!(String::from_utf8_lossy(&read("man/midplane-run.1")).contains("Mesh what is stale"));
 }
 
 /// Editors show what stands beside a reference only where the reference is in an `allOf`.
