@@ -188,6 +188,25 @@ fn more_than_friction_can_hold_is_no_equilibrium() {
     }
 }
 
+/// A block that is carried off stores, dissipates and works nothing: rounding over rounding is no error of the energies.
+#[test]
+fn energies_of_nothing_are_in_balance() {
+    let turn = rotation(30.0);
+    let blocks = [(-0.2, 3), (0.0, 4)]
+        .map(|(y, n)| rectangle(&even(0.0, 0.6, n), &even(y, y + 0.2, 2), Shape::Quadrilateral4, turn));
+    let steps = [step("away")
+        .increments(3)
+        .fix("lower.bottom", "xy")
+        .displace("upper.top", "x", 3e-4)
+        .displace("upper.top", "y", 7e-4)];
+    let scene = scene([3e4, 3e4], [1e5, 1e5, 0.5], "projected", &steps);
+    let (states, _) = solve(&scene.bind(blocks.to_vec()).unwrap());
+    for state in states {
+        assert!(state.stored + state.dissipated + state.work.abs() < 1e-15, "{}", state.work);
+        assert!(state.energy_balance().abs() < 1e-2, "{}", state.energy_balance());
+    }
+}
+
 /// All points slide at once at T = μ N, whatever the increments: the last equilibrium is at most a thousandth of one below it.
 #[test]
 fn the_limit_of_an_interface_that_slides_at_once_is_met_in_any_increments() {

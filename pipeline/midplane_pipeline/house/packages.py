@@ -85,9 +85,9 @@ def main() -> None:
     }
     if set(versions.values()) != {version}:
         sys.exit(f"versions do not agree with Cargo.toml's {version}: {versions}")
-    here = (root / "root/first" if call else options.out / "first").resolve()
+    here = (root / "srv/first" if call else options.out / "first").resolve()
     shutil.copytree(root / "usr/share/midplane/geo/compression", here)
-    place = "/root/first" if call else str(here)
+    place = "/srv/first" if call else str(here)
     said([*call, inside, "run", place, "-o", f"{place}/results"])
     venv.create(options.out / "venv", with_pip=True)
     python = (options.out / "venv/bin/python").absolute()
